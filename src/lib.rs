@@ -1,0 +1,1 @@
+//! restframe: a batch renderer for scenes in which things move at nearly the speed of light.
