@@ -1,1 +1,3 @@
 //! restframe: a batch renderer for scenes in which things move at nearly the speed of light.
+
+pub mod relativity;

@@ -1,0 +1,224 @@
+//! Inertial worldlines, and the transforms between the rest frames that ride on them.
+
+use super::boost::cross;
+use super::{Boost, Celerity, Event, FourVector, Light};
+use glam::{DMat3, DQuat, DVec3};
+
+/// An inertial worldline in the lab frame: its celerity, and the lab event that is the origin
+/// (position 0, proper time 0) of its rest frame.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Worldline {
+    /// γβ in the lab.
+    pub celerity: Celerity,
+    /// Lab event of the rest frame's origin.
+    pub origin: Event,
+}
+
+impl Worldline {
+    /// The lab itself.
+    pub const LAB: Self = Self {
+        celerity: Celerity::REST,
+        origin: Event::new(0.0, DVec3::ZERO),
+    };
+
+    /// The rest-frame event of a point resting at `position` (rest frame) whose lab time is
+    /// `lab_time`: from t_lab = at + γτ + u·x, τ = (t_lab − at − u·x)/γ.
+    pub fn event_at_lab_time(&self, position: DVec3, lab_time: f64) -> Event {
+        if self.celerity.is_rest() {
+            return Event::new(lab_time - self.origin.t, position);
+        }
+        let along = self.celerity.vector().dot(position);
+        let tau = (lab_time - self.origin.t - along) / self.celerity.lorentz_factor();
+        Event::new(tau, position)
+    }
+}
+
+impl Worldline {
+    /// The lab position, at `lab_time`, of a point resting at `position` (rest frame): the origin's
+    /// path, and `position` contracted along the motion. Nothing cancels, however fast it is.
+    pub fn lab_position(&self, position: DVec3, lab_time: f64) -> DVec3 {
+        let passed = self.origin.x + self.celerity.beta() * (lab_time - self.origin.t);
+        if self.celerity.is_rest() {
+            return passed + position;
+        }
+        let unit = self.celerity.vector() / self.celerity.magnitude();
+        let along = unit * unit.dot(position);
+        passed + (position - along) + along / self.celerity.lorentz_factor()
+    }
+}
+
+/// The Poincaré transform `to_from`: coordinates of one worldline's rest frame to another's.
+/// x′ = R·B(w)·x + offset, composed without going through the lab, so that two worldlines at
+/// γ = 10⁶ side by side are as exact as two at rest.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Transform {
+    boost: Boost,
+    /// None where it is the identity: collinear motion, or none.
+    turn: Option<DMat3>,
+    /// Coordinates of the `from` frame's origin event in the `to` frame.
+    offset: FourVector,
+}
+
+impl Transform {
+    /// The transform that changes nothing.
+    pub const IDENTITY: Self = Self {
+        boost: Boost::IDENTITY,
+        turn: None,
+        offset: FourVector::ZERO,
+    };
+
+    /// The transform from the rest frame of `from` to that of `to`.
+    ///
+    /// B(v)·B(u)⁻¹ = R·B(w), w the celerity of `to` in `from`'s frame and R the Wigner rotation,
+    /// a turn about u×v by −ε with tan(ε/2) = |u×v|/(1 + γ_u + γ_v + γ_w) (Macfarlane 1962).
+    pub fn between(from: &Worldline, to: &Worldline) -> Self {
+        let (u, v) = (from.celerity, to.celerity);
+        let w = v.seen_from(u);
+        let gap = from.origin - to.origin;
+        Self {
+            boost: Boost::into_rest_of(w),
+            turn: wigner_turn(u, v, w),
+            offset: Boost::into_rest_of(v).vector(gap),
+        }
+    }
+
+    /// The transform of a world in which light is infinitely fast: bodies stand where they are at
+    /// one lab time, uncontracted, and all rest frames share their axes. `from_at` and `to_at`
+    /// are the lab positions of the two origins at that time.
+    pub fn snapshot(from_at: DVec3, to_at: DVec3) -> Self {
+        Self {
+            offset: FourVector::new(0.0, from_at - to_at),
+            ..Self::IDENTITY
+        }
+    }
+
+    /// Whether directions and frequencies are the same in both frames.
+    pub fn is_translation(&self) -> bool {
+        self.boost.is_identity()
+    }
+
+    /// An event in the `to` frame.
+    pub fn event(&self, e: Event) -> Event {
+        let v = self.boost.vector(FourVector::new(e.t, e.x));
+        Event::new(v.t, self.turned(v.x)) + self.offset
+    }
+
+    /// Light of unit direction `n` in the `to` frame.
+    #[inline(always)]
+    pub fn light(&self, n: DVec3) -> Light {
+        let light = self.boost.light_of_unit(n);
+        Light {
+            direction: self.turned(light.direction),
+            ..light
+        }
+    }
+
+    #[inline(always)]
+    fn turned(&self, x: DVec3) -> DVec3 {
+        match self.turn {
+            Some(turn) => turn * x,
+            None => x,
+        }
+    }
+}
+
+fn wigner_turn(u: Celerity, v: Celerity, w: Celerity) -> Option<DMat3> {
+    let normal = cross(u.vector(), v.vector());
+    if normal == DVec3::ZERO {
+        return None;
+    }
+    let tan_half = normal / (1.0 + u.lorentz_factor() + v.lorentz_factor() + w.lorentz_factor());
+    let turn = DQuat::from_xyzw(-tan_half.x, -tan_half.y, -tan_half.z, 1.0).normalize();
+    Some(DMat3::from_quat(turn))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn worldline(beta: [f64; 3], t: f64, x: [f64; 3]) -> Worldline {
+        Worldline {
+            celerity: Celerity::from_beta(DVec3::from(beta)).unwrap(),
+            origin: Event::new(t, DVec3::from(x)),
+        }
+    }
+
+    /// The long way: back to the lab and out again.
+    fn through_the_lab(from: &Worldline, to: &Worldline, e: Event) -> Event {
+        let lab = Boost::into_rest_of(from.celerity.reversed()).event(e)
+            + (from.origin - Event::new(0.0, DVec3::ZERO));
+        let gap = lab - to.origin;
+        let v = Boost::into_rest_of(to.celerity).vector(gap);
+        Event::new(v.t, v.x)
+    }
+
+    #[test]
+    fn composed_transforms_agree_with_the_way_through_the_lab() {
+        let cases = [
+            ([0.6, 0.0, 0.0], [0.0, 0.6, 0.0]),
+            ([0.5, -0.3, 0.2], [-0.1, 0.4, 0.8]),
+            ([0.0, 0.0, 0.9], [0.0, 0.0, -0.9]),
+            ([0.0, 0.0, 0.0], [0.3, 0.0, 0.4]),
+            ([0.3, 0.0, 0.4], [0.0, 0.0, 0.0]),
+        ];
+        for (a, b) in cases {
+            let from = worldline(a, 0.5, [1.0, -2.0, 0.25]);
+            let to = worldline(b, -3.0, [0.0, 4.0, 1.5]);
+            let e = Event::new(1.25, DVec3::new(-0.5, 2.0, 7.0));
+            let direct = Transform::between(&from, &to).event(e);
+            let long = through_the_lab(&from, &to, e);
+            assert!((direct.t - long.t).abs() < 1e-13, "{a:?} {b:?}");
+            assert!((direct.x - long.x).length() < 1e-13, "{a:?} {b:?}");
+        }
+    }
+
+    #[test]
+    fn wigner_rotation_of_0_6_and_0_6_is_12_68_degrees() {
+        let (from, to) = (
+            worldline([-0.6, 0.0, 0.0], 0.0, [0.0; 3]),
+            worldline([0.0, 0.6, 0.0], 0.0, [0.0; 3]),
+        );
+        let turn = Transform::between(&from, &to).turn.unwrap();
+        let (_, angle) = DQuat::from_mat3(&turn).to_axis_angle();
+        assert!((angle.to_degrees() - 12.680383491820).abs() < 1e-10);
+    }
+
+    #[test]
+    fn a_shared_celerity_leaves_a_pure_translation() {
+        let a = worldline([0.3, 0.2, -0.5], 0.0, [0.0; 3]);
+        let b = worldline([0.3, 0.2, -0.5], 1.0, [1.0, 0.0, 0.0]);
+        assert!(Transform::between(&a, &b).is_translation());
+        assert_eq!(Transform::between(&a, &a), Transform::IDENTITY);
+    }
+
+    #[test]
+    fn light_keeps_its_own_worldline_under_the_transform() {
+        // A light ray's two events, transformed, are joined by the transformed direction.
+        let from = worldline([0.5, -0.3, 0.2], 0.5, [1.0, -2.0, 0.25]);
+        let to = worldline([-0.1, 0.4, 0.8], -3.0, [0.0, 4.0, 1.5]);
+        let transform = Transform::between(&from, &to);
+        let n = DVec3::new(0.2, -0.9, 0.4).normalize();
+        let a = Event::new(0.0, DVec3::new(1.0, 1.0, 1.0));
+        let b = a + FourVector::new(3.0, n * 3.0);
+        let step = transform.event(b) - transform.event(a);
+        let light = transform.light(n);
+        assert!((step.t - 3.0 * light.frequency_ratio).abs() < 1e-13);
+        assert!((step.x - light.direction * step.t).length() < 1e-13);
+    }
+
+    #[test]
+    fn a_point_is_in_the_lab_where_its_event_is() {
+        let w = worldline([0.3, 0.2, -0.8], 1.5, [4.0, 5.0, 6.0]);
+        let position = DVec3::new(1.0, 2.0, 3.0);
+        let lab = Transform::between(&w, &Worldline::LAB).event(w.event_at_lab_time(position, 7.0));
+        assert!((w.lab_position(position, 7.0) - lab.x).length() < 1e-14);
+    }
+
+    #[test]
+    fn an_event_at_a_lab_time_has_that_lab_time() {
+        let w = worldline([0.3, 0.2, -0.8], 1.5, [4.0, 5.0, 6.0]);
+        let e = w.event_at_lab_time(DVec3::new(1.0, 2.0, 3.0), 7.0);
+        let lab = Transform::between(&w, &Worldline::LAB).event(e);
+        assert!((lab.t - 7.0).abs() < 1e-14);
+    }
+}
