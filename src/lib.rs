@@ -1,3 +1,4 @@
 //! restframe: a batch renderer for scenes in which things move at nearly the speed of light.
 
 pub mod relativity;
+pub mod spectrum;

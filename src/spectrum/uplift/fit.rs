@@ -1,0 +1,102 @@
+//! The fit of a colour's curve: coefficients by the method of Levenberg and Marquardt.
+
+use super::{WEIGHTS, quadratic, sigmoid};
+use crate::spectrum::color_space::{Matrix, apply, inverse};
+
+/// Greatest weighted error at which a fit is done.
+const GOOD_ENOUGH: f64 = 1e-10;
+
+/// Most steps of a fit.
+const MAX_STEPS: usize = 200;
+
+/// RGB of the sigmoid curve of given coefficients, and its derivatives by them (row: channel).
+fn color_of(coefficients: [f64; 3]) -> ([f64; 3], Matrix) {
+    let (mut rgb, mut slopes) = ([0.0; 3], [[0.0; 3]; 3]);
+    for &(u, weight) in WEIGHTS.iter() {
+        let x = quadratic(coefficients, u);
+        let value = sigmoid(x);
+        let slope = 0.5 / ((1.0 + x * x) * (1.0 + x * x).sqrt());
+        for channel in 0..3 {
+            rgb[channel] += weight[channel] * value;
+            let part = weight[channel] * slope;
+            slopes[channel][0] += part * u * u;
+            slopes[channel][1] += part * u;
+            slopes[channel][2] += part;
+        }
+    }
+    (rgb, slopes)
+}
+
+/// Coefficients, and how far their color is from the one wanted.
+#[derive(Clone, Copy)]
+struct Guess {
+    coefficients: [f64; 3],
+    /// Errors of R, G and B, weighted.
+    errors: [f64; 3],
+    /// Their derivatives by the coefficients (row: channel).
+    slopes: Matrix,
+}
+
+impl Guess {
+    /// Errors count about as the sRGB transfer shows them: dark colors are fitted as well as light.
+    fn new(coefficients: [f64; 3], target: [f64; 3]) -> Self {
+        let (rgb, mut slopes) = color_of(coefficients);
+        let weights = target.map(|part| (part + 0.01).powf(-0.6));
+        for (row, weight) in slopes.iter_mut().zip(weights) {
+            row.iter_mut().for_each(|slope| *slope *= weight);
+        }
+        let errors = std::array::from_fn(|i| weights[i] * (rgb[i] - target[i]));
+        Self {
+            coefficients,
+            errors,
+            slopes,
+        }
+    }
+
+    fn largest_error(&self) -> f64 {
+        self.errors
+            .iter()
+            .fold(0.0, |most, error| most.max(error.abs()))
+    }
+
+    fn squares(&self) -> f64 {
+        self.errors.iter().map(|error| error * error).sum()
+    }
+
+    /// The coefficients that a step of Levenberg and Marquardt leads to (Marquardt 1963).
+    fn stepped(&self, damping: f64) -> [f64; 3] {
+        let column = |k: usize| self.slopes.map(|row| row[k]);
+        let product = |a: [f64; 3], b: [f64; 3]| (0..3).map(|i| a[i] * b[i]).sum::<f64>();
+        let mut normal: Matrix =
+            std::array::from_fn(|j| std::array::from_fn(|k| product(column(j), column(k))));
+        (0..3).for_each(|k| normal[k][k] *= 1.0 + damping);
+        let downhill = std::array::from_fn(|k| -product(column(k), self.errors));
+        let step = apply(&inverse(normal), downhill);
+        std::array::from_fn(|k| self.coefficients[k] + step[k])
+    }
+}
+
+/// The coefficients whose color is nearest to `target`, each component from 0 to 1.
+pub(super) fn fit(target: [f64; 3]) -> [f64; 3] {
+    let mut best = Guess::new(start(target), target);
+    let mut damping = 1e-3;
+    for _ in 0..MAX_STEPS {
+        if best.largest_error() < GOOD_ENOUGH || damping > 1e12 {
+            break;
+        }
+        let trial = Guess::new(best.stepped(damping), target);
+        if trial.squares() < best.squares() {
+            best = trial;
+            damping *= 0.2;
+        } else {
+            damping *= 5.0;
+        }
+    }
+    best.coefficients
+}
+
+/// The constant curve of the color's mean.
+fn start(target: [f64; 3]) -> [f64; 3] {
+    let mean = (target.iter().sum::<f64>() / 3.0).clamp(1e-6, 1.0 - 1e-6);
+    [0.0, 0.0, (mean - 0.5) / (mean * (1.0 - mean)).sqrt()]
+}
