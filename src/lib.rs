@@ -1,4 +1,5 @@
 //! restframe: a batch renderer for scenes in which things move at nearly the speed of light.
 
 pub mod relativity;
+pub mod shot;
 pub mod spectrum;

@@ -1,0 +1,48 @@
+//! The camera: one way to say where it looks and how wide, and something to look at.
+
+use super::Checks;
+use crate::shot::Track;
+
+impl Checks<'_> {
+    pub(super) fn camera(&mut self) {
+        let camera = &self.shot.camera;
+        if camera.worldline.as_deref() == Some("camera") {
+            let message = "the camera cannot ride on its own worldline".to_owned();
+            self.say("camera.worldline", message, "name another one, or \"lab\"");
+        } else {
+            self.check_worldline("camera.worldline", camera.worldline.as_ref());
+        }
+        self.either("look_at", "yaw");
+        self.either("look_at", "pitch");
+        self.either("hfov", "vfov");
+        self.looks_at_itself();
+    }
+
+    fn either(&mut self, one: &str, other: &str) {
+        let path = format!("camera.{other}");
+        if self.given(&format!("camera.{one}")) && self.given(&path) {
+            let message = format!("`{one}` and `{other}` exclude each other");
+            self.say(&path, message, "leave out one of them");
+        }
+    }
+
+    fn looks_at_itself(&mut self) {
+        let camera = &self.shot.camera;
+        let Some(target) = &camera.look_at else {
+            return;
+        };
+        if camera.position.is_none() && self.given("camera.position") {
+            return; // it is mistaken by itself
+        }
+        let origin = Track::default();
+        let position = camera.position.as_ref().unwrap_or(&origin);
+        if let Some(frame) = self.first(position, target, |from, to| from == to) {
+            let message = format!("the camera looks at its own position at frame {frame}");
+            self.say(
+                "camera.look_at",
+                message,
+                "look at another point, or write yaw and pitch",
+            );
+        }
+    }
+}

@@ -1,0 +1,110 @@
+//! The shot as its author wrote it: what the TOML says, key by key, nothing resolved.
+//!
+//! In: the text of a shot file. Out: a [`Shot`] in which every value is of the right type and
+//! range, or all of the file's mistakes at once. Units are the file's own: metres, units of c,
+//! nanometres, kelvins, degrees. What the renderer needs is built from it by `scene`.
+//!
+//! The doc comments of the author's types are what `restframe schema` prints and what a
+//! message quotes as help. A text is read in three steps: a tree with byte spans, the walk of
+//! that tree against the schema, the checks that need more than one key.
+//!
+//! Source: the shot format, which README.md introduces and `restframe schema` prints.
+
+mod appearance;
+mod body;
+mod camera;
+mod check;
+mod diagnostics;
+mod later;
+mod light;
+mod load;
+mod mistake;
+mod names;
+mod schema;
+mod settings;
+mod track;
+mod walk;
+
+use indexmap::IndexMap;
+use schemars::JsonSchema;
+use serde::Deserialize;
+use std::path::PathBuf;
+
+pub use appearance::{
+    Beyond, Diffuse, Emission, Gaussian, Highlight, Material, Mirror, Refraction, SpectrumTable,
+    SpectrumValue, Thermal, ThermalCurve,
+};
+pub use body::{Array, GammaVelocity, Model, RapidityVelocity, Scale, Velocity, Worldline};
+pub use camera::{Camera, Projection};
+pub use check::{ILLUMINANTS, MAX_INSTANCES};
+pub use light::{Background, Light, LightKind};
+pub use load::{MAX_BYTES, load, parse};
+pub use mistake::{Mistake, Mistakes, Places};
+pub use schema::schema;
+pub use settings::{
+    Accuracy, AutoExposure, Beaming, Clock, Effects, Exposure, Filter, Format, Image, LARGEST_SIDE,
+    Layer, Output, Sensor, SensorColor, Spectra, Splice, SpliceEffects, Switch, Tone,
+};
+pub use track::{Blend, Ease, Track};
+
+/// A restframe shot: what is in the scene, how it moves, who looks at it and what is written.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Shot {
+    /// Title, length and clock of the sequence.
+    #[serde(default)]
+    #[schemars(extend("default" = {}))]
+    pub shot: Clock,
+    /// Size and sampling of every image.
+    #[serde(default)]
+    #[schemars(extend("default" = {}))]
+    pub image: Image,
+    /// Inertial reference frames by name. "lab" (at rest) and "camera" (the camera's own) exist always.
+    #[serde(default)]
+    pub worldline: IndexMap<String, Worldline>,
+    /// Models from files, and where they stand. At least one.
+    #[schemars(length(min = 1))]
+    pub model: Vec<Model>,
+    /// Materials by name. A name that a model file has too is laid over the imported material: given keys replace, the rest stays.
+    #[serde(default)]
+    pub material: IndexMap<String, Material>,
+    /// Spectra by name, for use wherever a spectrum stands.
+    #[serde(default)]
+    pub spectrum: IndexMap<String, SpectrumTable>,
+    /// Lamps beside those of the model files.
+    #[serde(default)]
+    pub light: Vec<Light>,
+    /// What is seen where no surface is.
+    #[serde(default)]
+    #[schemars(extend("default" = {}))]
+    pub background: Background,
+    /// The camera: where it is, where it looks, how wide.
+    pub camera: Camera,
+    /// Which effects are simulated.
+    #[serde(default)]
+    #[schemars(extend("default" = {}))]
+    pub effects: Effects,
+    /// Parts of the image rendered with other effects.
+    #[serde(default)]
+    pub splice: Vec<Splice>,
+    /// From spectral radiance to pixel values.
+    #[serde(default)]
+    #[schemars(extend("default" = {}))]
+    pub sensor: Sensor,
+    /// How exactly spectra are held.
+    #[serde(default)]
+    #[schemars(extend("default" = {}))]
+    pub accuracy: Accuracy,
+    /// Files and layers that are written.
+    #[serde(default)]
+    #[schemars(extend("default" = {}))]
+    pub output: Output,
+    /// The shot file's path, as it was given.
+    #[serde(skip)]
+    #[schemars(skip)]
+    pub path: PathBuf,
+    /// Where in the file each key stands, for mistakes that later stages find.
+    #[serde(skip)]
+    #[schemars(skip)]
+    pub places: Places,
+}

@@ -1,0 +1,290 @@
+//! The settings of a shot that place nothing in the scene: clock, image, effects, sensor,
+//! accuracy, output. Every key has a default; units are in each key's comment.
+
+use super::Track;
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+/// Most pixels on a side of an image.
+pub const LARGEST_SIDE: u32 = 32768;
+
+/// `[shot]`: title, length and clock of the sequence.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct Clock {
+    /// Title of the shot, written to the images' metadata. Default: the file's stem.
+    pub title: Option<String>,
+    /// Number of images, numbered from 1, at most a million. Default: 1.
+    #[schemars(range(min = 1, max = 1_000_000))]
+    pub frames: u32,
+    /// Images per second of the assembled video, above 0. Default: 24.
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub fps: f64,
+    /// Lab time of the exposure, s. A constant is a stop-frame: velocities may ramp, time stands still. Default: 0.
+    pub time: Track<f64>,
+    /// Speed of light, m/s, above 0: ties seconds to metres. Default: 1.
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub light_speed: f64,
+}
+
+impl Default for Clock {
+    fn default() -> Self {
+        Clock {
+            title: None,
+            frames: 1,
+            fps: 24.0,
+            time: Track::default(),
+            light_speed: 1.0,
+        }
+    }
+}
+
+/// `[image]`: size and sampling of every image.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct Image {
+    /// Width and height in pixels, each from 1 to 32768. Default: [1280, 720].
+    #[schemars(inner(range(min = 1, max = LARGEST_SIDE)))]
+    pub size: [u32; 2],
+    /// Samples per pixel, from 1 to 65536. Default: 16.
+    #[schemars(range(min = 1, max = 65536))]
+    pub samples: u32,
+    /// Reconstruction filter of the pixels. Default: "blackman-harris".
+    pub filter: Filter,
+}
+
+impl Default for Image {
+    fn default() -> Self {
+        Image {
+            size: [1280, 720],
+            samples: 16,
+            filter: Filter::BlackmanHarris,
+        }
+    }
+}
+
+/// Reconstruction filter of the pixels.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Filter {
+    /// A smooth bell over the neighbouring pixels: no stairs, no ringing.
+    BlackmanHarris,
+    /// The plain mean over the pixel's square.
+    Box,
+}
+
+/// `[effects]`: which effects are simulated. "auto" means in the frames that call for it.
+#[derive(Debug, Clone, Copy, PartialEq, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct Effects {
+    /// Finite light speed: retardation, aberration, contraction. "off" is as if c were infinite. Default: "auto".
+    pub geometry: Switch,
+    /// The shift of wavelengths; "off" reads curves unshifted. Default: "auto".
+    pub doppler: Switch,
+    /// The change of power with motion. Default: "full".
+    pub beaming: Beaming,
+    /// Thermal light of the materials that have a temperature. Default: "auto".
+    pub thermal: Switch,
+    /// Whether surfaces keep light from each other. Default: "auto".
+    pub shadows: Switch,
+    /// Depth of mirror and refraction, where a material has them. Default: 4.
+    #[schemars(range(max = 64))]
+    pub bounces: u32,
+}
+
+impl Default for Effects {
+    fn default() -> Self {
+        Effects {
+            geometry: Switch::Auto,
+            doppler: Switch::Auto,
+            beaming: Beaming::Full,
+            thermal: Switch::Auto,
+            shadows: Switch::Auto,
+            bounces: 4,
+        }
+    }
+}
+
+/// Whether an effect is simulated.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum Switch {
+    /// In the frames that call for it.
+    Auto,
+    /// Never.
+    Off,
+}
+
+/// The change of power with motion, D being the Doppler factor observed over emitted frequency.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum Beaming {
+    /// D⁵ on spectral radiance, D³ on spectral irradiance: the physics.
+    Full,
+    /// D² on both.
+    Square,
+    /// None.
+    Off,
+}
+
+/// `[[splice]]`: rows of the image that are rendered with other effects.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Splice {
+    /// First and last row as fractions of the height from the top, ascending, from 0 to 1.
+    #[schemars(inner(range(min = 0, max = 1)))]
+    pub rows: [f64; 2],
+    /// The effects that differ there.
+    pub effects: SpliceEffects,
+}
+
+/// The effects that a splice changes; the rest are the shot's.
+#[derive(Debug, Clone, Copy, Default, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct SpliceEffects {
+    /// Finite light speed: retardation, aberration, contraction. Default: the shot's.
+    pub geometry: Option<Switch>,
+    /// The shift of wavelengths. Default: the shot's.
+    pub doppler: Option<Switch>,
+    /// The change of power with motion. Default: the shot's.
+    pub beaming: Option<Beaming>,
+    /// Thermal light. Default: the shot's.
+    pub thermal: Option<Switch>,
+    /// Whether surfaces keep light from each other. Default: the shot's.
+    pub shadows: Option<Switch>,
+}
+
+/// `[sensor]`: from spectral radiance to pixel values.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct Sensor {
+    /// Shortest and longest wavelength seen, nm, ascending and above 0. Default: [360, 830].
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub window: [f64; 2],
+    /// How wavelengths become color. Default: "cie1931".
+    pub color: SensorColor,
+    /// "auto", metered on frame 1 and kept, or stops: 0 makes 100 cd/m² 1.0, +1 doubles; from -200 to 200. Default: "auto".
+    #[schemars(extend("minimum" = -200, "maximum" = 200))]
+    pub exposure: Exposure,
+    /// What becomes of values above 1. Default: "clip".
+    pub tone: Tone,
+}
+
+impl Default for Sensor {
+    fn default() -> Self {
+        Sensor {
+            window: [360.0, 830.0],
+            color: SensorColor::Cie1931,
+            exposure: Exposure::Auto(AutoExposure::Auto),
+            tone: Tone::Clip,
+        }
+    }
+}
+
+/// How wavelengths become color.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum SensorColor {
+    /// As the CIE's standard observer of 1931 (2°) sees them.
+    Cie1931,
+}
+
+/// How bright a radiance appears.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[serde(untagged)]
+pub enum Exposure {
+    /// Stops: 0 makes 100 cd/m² 1.0, +1 doubles.
+    Stops(Track<f64>),
+    /// Metered on frame 1 and kept.
+    Auto(AutoExposure),
+}
+
+/// The word for a metered exposure.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum AutoExposure {
+    /// The 95th percentile of the luminance of frame 1 becomes 0.8.
+    Auto,
+}
+
+/// What becomes of values above 1.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum Tone {
+    /// They are cut off at 1.
+    Clip,
+}
+
+/// `[accuracy]`: how exactly spectra are held.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct Accuracy {
+    /// How curves are held. Default: "grid".
+    pub spectra: Spectra,
+    /// Wavelengths over the sensor's window, from 8 to 4096. Default: 84.
+    #[schemars(range(min = 8, max = 4096))]
+    pub wavelengths: u32,
+}
+
+impl Default for Accuracy {
+    fn default() -> Self {
+        Accuracy {
+            spectra: Spectra::Grid,
+            wavelengths: 84,
+        }
+    }
+}
+
+/// How curves are held while rendering.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum Spectra {
+    /// Baked on a grid in ln λ, where a Doppler shift is a translation: fast.
+    Grid,
+    /// The cardinal spline through the authored points, read anew for every shift: exact, slow.
+    Spline,
+}
+
+/// `[output]`: files and layers that are written.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct Output {
+    /// Image files of every frame. Default: ["png"].
+    #[schemars(length(min = 1))]
+    pub formats: Vec<Format>,
+    /// Extra layers of the EXR. Default: [].
+    pub layers: Vec<Layer>,
+}
+
+impl Default for Output {
+    fn default() -> Self {
+        Output {
+            formats: vec![Format::Png],
+            layers: Vec::new(),
+        }
+    }
+}
+
+/// A kind of image file.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum Format {
+    /// 8 bit sRGB after exposure and tone.
+    Png,
+    /// Linear 32 bit float before exposure, with layers.
+    Exr,
+}
+
+/// An extra layer of the EXR, about the first surface that a pixel sees.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Layer {
+    /// Doppler factor: observed over emitted frequency.
+    Doppler,
+    /// Lab length of the light path, m.
+    Distance,
+    /// Lab time of emission, m of light travel.
+    EmissionTime,
+    /// Number of the worldline in the order of the shot.
+    Worldline,
+}
