@@ -1,5 +1,7 @@
 //! restframe: a batch renderer for scenes in which things move at nearly the speed of light.
 
+pub mod plan;
 pub mod relativity;
+pub mod scene;
 pub mod shot;
 pub mod spectrum;

@@ -1,0 +1,164 @@
+//! Which effects an image calls for, and the sentence why.
+
+use super::motion::{MotionError, celerity};
+use crate::relativity::Celerity;
+use crate::shot::{Background, Beaming, Effects, Material, Shot, SpectrumValue, Switch, Track};
+
+/// The effects that are simulated in one image. What is false, or off, costs nothing.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Called {
+    /// Finite light speed: retardation, aberration, contraction.
+    pub geometry: bool,
+    /// Wavelength shift.
+    pub doppler: bool,
+    /// Powers of the Doppler factor on radiance and irradiance.
+    pub beaming: Beaming,
+    /// Thermal light.
+    pub thermal: bool,
+    /// Shadow rays.
+    pub shadows: bool,
+    /// One sentence an effect.
+    pub because: Vec<Reason>,
+}
+
+/// Why an effect is, or is not, simulated.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Reason {
+    /// Name of the effect, as in `[effects]`.
+    pub effect: &'static str,
+    /// A sentence without full stop.
+    pub why: String,
+}
+
+/// The effects that frame number `frame` calls for, under the author's `switches`.
+///
+/// # Errors
+/// Where a worldline has no velocity in this frame.
+pub fn called(shot: &Shot, frame: u32, switches: &Effects) -> Result<Called, MotionError> {
+    let moving = relative_motion(shot, frame)?;
+    let hot = hot_material(shot, frame);
+    let lit = lamps(shot);
+    let mut because = Vec::new();
+    let mut call = |effect, allowed: bool, cause: Option<&str>, without: &str| {
+        let why = match (allowed, cause) {
+            (false, _) => "off in the shot".to_owned(),
+            (true, Some(cause)) => cause.to_owned(),
+            (true, None) => without.to_owned(),
+        };
+        because.push(Reason { effect, why });
+        allowed && cause.is_some()
+    };
+    let still = "nothing moves relative to the camera or to a lamp";
+    let moving = moving.as_deref();
+    let geometry = call("geometry", switches.geometry == Switch::Auto, moving, still);
+    let doppler = call("doppler", switches.doppler == Switch::Auto, moving, still);
+    let beamed = call("beaming", switches.beaming != Beaming::Off, moving, still);
+    let thermal = call(
+        "thermal",
+        switches.thermal == Switch::Auto,
+        hot.as_deref(),
+        "no material is above 0 K",
+    );
+    let shadows = call(
+        "shadows",
+        switches.shadows == Switch::Auto,
+        lit.as_deref(),
+        "there is no lamp",
+    );
+    let beaming = if beamed {
+        switches.beaming
+    } else {
+        Beaming::Off
+    };
+    Ok(Called {
+        geometry,
+        doppler,
+        beaming,
+        thermal,
+        shadows,
+        because,
+    })
+}
+
+/// The first two things that move relative to each other.
+fn relative_motion(shot: &Shot, frame: u32) -> Result<Option<String>, MotionError> {
+    let camera = celerity(shot, "camera", frame)?;
+    let sky = (!is_black(&shot.background)).then(|| {
+        (
+            "the background".to_owned(),
+            shot.background.worldline.as_deref().unwrap_or("camera"),
+        )
+    });
+    let models = shot.model.iter().map(|model| {
+        let name = model
+            .name
+            .clone()
+            .unwrap_or_else(|| model.file.display().to_string());
+        (
+            format!("model \"{name}\""),
+            model.worldline.as_deref().unwrap_or("lab"),
+        )
+    });
+    let lights = shot.light.iter().enumerate().map(|(i, light)| {
+        let name = light
+            .name
+            .as_ref()
+            .map_or_else(|| format!("light {}", i + 1), Clone::clone);
+        (name, light.worldline.as_deref().unwrap_or("lab"))
+    });
+    for (thing, worldline) in models.chain(lights).chain(sky) {
+        let own = celerity(shot, worldline, frame)?;
+        if own != camera {
+            return Ok(Some(describe(&thing, own.seen_from(camera))));
+        }
+    }
+    Ok(None)
+}
+
+fn describe(thing: &str, w: Celerity) -> String {
+    let lorentz_factor = w.lorentz_factor();
+    let beta = w.beta().length();
+    if beta < 0.999 {
+        format!("{thing} moves at {beta:.6} c relative to the camera")
+    } else {
+        format!(
+            "{thing} moves relative to the camera with a Lorentz factor of {lorentz_factor:.6e}"
+        )
+    }
+}
+
+fn is_black(background: &Background) -> bool {
+    match &background.spectrum {
+        None => true,
+        Some(SpectrumValue::Number(Track::Constant(value))) => *value == 0.0,
+        Some(_) => false,
+    }
+}
+
+fn hot_material(shot: &Shot, frame: u32) -> Option<String> {
+    let temperature = |material: &Material| {
+        let track = material.thermal.as_ref()?.temperature.as_ref()?;
+        Some(track.at(frame, shot.shot.frames)).filter(|t| *t > 0.0)
+    };
+    shot.material.iter().find_map(|(name, material)| {
+        temperature(material).map(|t| format!("material \"{name}\" is at {t} K"))
+    })
+}
+
+/// Lamps of the shot, or of model files that may hold some.
+fn lamps(shot: &Shot) -> Option<String> {
+    match shot.light.len() {
+        0 => shot
+            .model
+            .iter()
+            .any(|model| {
+                model
+                    .file
+                    .extension()
+                    .is_none_or(|e| !e.eq_ignore_ascii_case("obj"))
+            })
+            .then(|| "a model file may hold lamps".to_owned()),
+        1 => Some("there is one lamp".to_owned()),
+        n => Some(format!("there are {n} lamps")),
+    }
+}

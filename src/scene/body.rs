@@ -1,0 +1,226 @@
+//! Bodies: meshes, and where their instances stand in the rest frames of worldlines.
+
+use super::library::Library;
+use super::model::Mesh;
+use crate::shot::{Array, Model, Scale, Shot};
+use glam::{DAffine3, DMat3, DQuat, DVec3, EulerRot, Vec3};
+use std::sync::Arc;
+
+/// One placement of a mesh.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Instance {
+    /// Index into [`Geometry::meshes`].
+    pub mesh: u32,
+    /// Index into the scene's worldlines.
+    pub worldline: u32,
+    /// Index into the scene's models.
+    pub model: u32,
+    /// Index into the scene's materials.
+    pub material: u32,
+    /// Whether the back of a triangle is seen.
+    pub double_sided: bool,
+    /// From the mesh's coordinates to its worldline's rest frame; invertible.
+    pub rest_from_mesh: DAffine3,
+}
+
+/// Everything that rays can hit.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Geometry {
+    /// Shared by their instances.
+    pub meshes: Vec<Arc<Mesh>>,
+    /// In the order of the shot.
+    pub instances: Vec<Instance>,
+    /// What the instances were placed by.
+    pub(super) placing: Vec<Placing>,
+}
+
+/// Where a model stands in one image: model to rest frame, and the steps of its array.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Placing {
+    pub(super) rest_from_model: DAffine3,
+    array: Option<([u32; 3], DVec3, bool)>,
+}
+
+impl Placing {
+    /// A model is scaled, rotated (Rz·Ry·Rx), translated, then arrayed.
+    pub(super) fn new(model: &Model, frame: u32, frames: u32) -> Self {
+        let vector = |track: &Option<crate::shot::Track<[f64; 3]>>| {
+            track
+                .as_ref()
+                .map_or(DVec3::ZERO, |t| DVec3::from(t.at(frame, frames)))
+        };
+        let scale = match &model.scale {
+            None => DVec3::ONE,
+            Some(Scale::Uniform(scale)) => DVec3::splat(scale.at(frame, frames)),
+            Some(Scale::PerAxis(scale)) => DVec3::from(scale.at(frame, frames)),
+        };
+        let angles = vector(&model.rotate) * (std::f64::consts::PI / 180.0);
+        let turn = DQuat::from_euler(EulerRot::ZYX, angles.z, angles.y, angles.x);
+        let linear = DMat3::from_quat(turn) * DMat3::from_diagonal(scale);
+        let array = model.array.as_ref().map(
+            |Array {
+                 count,
+                 step,
+                 centered,
+             }| { (*count, DVec3::from(step.at(frame, frames)), *centered) },
+        );
+        let rest_from_model = DAffine3::from_mat3_translation(linear, vector(&model.translate));
+        Self {
+            rest_from_model,
+            array,
+        }
+    }
+
+    /// Displacements of the array's copies, x running fastest; one of zero without an array.
+    pub(super) fn copies(&self) -> impl Iterator<Item = DVec3> + '_ {
+        let (count, step, centered) = self.array.unwrap_or(([1; 3], DVec3::ZERO, false));
+        let counts = DVec3::from(count.map(f64::from));
+        let first = if centered {
+            step * (counts - 1.0) / -2.0
+        } else {
+            DVec3::ZERO
+        };
+        let [nx, ny, nz] = count;
+        (0..nz)
+            .flat_map(move |z| (0..ny).map(move |y| (y, z)))
+            .flat_map(move |(y, z)| {
+                (0..nx).map(move |x| first + step * DVec3::new(x.into(), y.into(), z.into()))
+            })
+    }
+}
+
+/// A point of a body's surface, in its worldline's rest frame.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SurfacePoint {
+    /// Position, from the triangle's vertices: its error is that of the mesh, however far the
+    /// ray came.
+    pub position: DVec3,
+    /// Unit normal of the triangle, by its winding.
+    pub flat_normal: DVec3,
+    /// Unit normal interpolated between the vertices; the flat one without vertex normals.
+    pub normal: DVec3,
+    /// How far the smooth surface that the vertex normals describe stands off the triangle here;
+    /// zero without vertex normals, and where that surface is hollow.
+    pub bulge: DVec3,
+    /// A distance that surely separates a point from the surface it was computed on.
+    pub clearance: f64,
+}
+
+impl Geometry {
+    /// The bodies of a shot, placed as `placing` says. `worldlines` are indices of the models'
+    /// worldlines, `materials` those of each model's own materials.
+    pub(super) fn new(
+        library: &Library,
+        placing: Vec<Placing>,
+        worldlines: &[u32],
+        materials: &[Vec<u32>],
+    ) -> Self {
+        let mut meshes: Vec<Arc<Mesh>> = Vec::new();
+        let mut instances = Vec::new();
+        for (index, place) in placing.iter().enumerate() {
+            let loaded = library.model(index);
+            let numbers: Vec<u32> = loaded
+                .meshes
+                .iter()
+                .map(|mesh| number_of(&mut meshes, mesh))
+                .collect();
+            for copy in place.copies() {
+                instances.extend(loaded.file.placements.iter().map(|placement| {
+                    let mut rest_from_mesh = place.rest_from_model * placement.world;
+                    rest_from_mesh.translation += copy;
+                    let own = loaded.meshes[placement.mesh].material;
+                    Instance {
+                        mesh: numbers[placement.mesh],
+                        worldline: worldlines[index],
+                        model: index as u32,
+                        material: materials[index][own.unwrap_or(loaded.file.materials.len())],
+                        double_sided: own.is_none_or(|own| loaded.file.materials[own].double_sided),
+                        rest_from_mesh,
+                    }
+                }));
+            }
+        }
+        Self {
+            meshes,
+            instances,
+            placing,
+        }
+    }
+
+    /// The surface point of an instance's triangle at barycentric `weights`.
+    pub fn surface_point(&self, instance: u32, triangle: u32, weights: [f64; 3]) -> SurfacePoint {
+        let instance = &self.instances[instance as usize];
+        let mesh = &self.meshes[instance.mesh as usize];
+        let corners = mesh.triangles[triangle as usize];
+        let [a, b, c] = corners.map(|i| mesh.positions[i as usize]);
+        let [wa, wb, wc] = weights;
+        let place = &instance.rest_from_mesh;
+        let position = place.transform_point3(a * wa + b * wb + c * wc);
+        let (ab, ac) = (
+            place.transform_vector3(b - a),
+            place.transform_vector3(c - a),
+        );
+        // A mirrored instance turns its triangles over; the normal stays on the mesh's front.
+        let handed = place.matrix3.determinant().signum();
+        // Scaled first: products of the edges of the smallest bodies would be zero.
+        let unit = |edge: DVec3| edge / edge.abs().max_element();
+        let flat_normal = unit(ab).cross(unit(ac)).normalize_or(DVec3::Y) * handed;
+        let inverse_transpose = place.matrix3.inverse().transpose();
+        let of_corner = |normals: &[Vec3], i: u32| {
+            (inverse_transpose * normals[i as usize].as_dvec3()).normalize_or(flat_normal)
+        };
+        let normals = mesh
+            .normals
+            .as_ref()
+            .map(|n| corners.map(|i| of_corner(n, i)));
+        let normal = normals.map_or(flat_normal, |[na, nb, nc]| {
+            (na * wa + nb * wb + nc * wc).normalize_or(flat_normal)
+        });
+        let places = [a, b, c].map(|corner| place.transform_point3(corner));
+        let bulge = normals.map_or(DVec3::ZERO, |normals| {
+            bulge(position, places, normals, weights)
+        });
+        // 1e3 roundings of the largest coordinate that took part.
+        let size = position.abs().max_element()
+            + place.translation.abs().max_element()
+            + ab.abs().max_element().max(ac.abs().max_element());
+        SurfacePoint {
+            position,
+            flat_normal,
+            normal,
+            bulge,
+            clearance: 1e3 * f64::EPSILON * size,
+        }
+    }
+}
+
+/// From a point of a triangle to the smooth surface above it: the point is put on the planes that
+/// the vertex normals stand on, where they lie above it, and these are weighted as the vertices
+/// are (Hanika 2021, Hacking the Shadow Terminator).
+fn bulge(position: DVec3, corners: [DVec3; 3], normals: [DVec3; 3], weights: [f64; 3]) -> DVec3 {
+    let lift = |i: usize| {
+        let below = (position - corners[i]).dot(normals[i]).min(0.0);
+        normals[i] * (-below * weights[i])
+    };
+    lift(0) + lift(1) + lift(2)
+}
+
+/// The number of a mesh among those known; models of one file share theirs.
+fn number_of(known: &mut Vec<Arc<Mesh>>, mesh: &Arc<Mesh>) -> u32 {
+    let number = known
+        .iter()
+        .position(|k| Arc::ptr_eq(k, mesh))
+        .unwrap_or_else(|| {
+            known.push(Arc::clone(mesh));
+            known.len() - 1
+        });
+    number as u32
+}
+
+/// The placings of all models of a shot in one image.
+pub(super) fn placings(shot: &Shot, frame: u32) -> Vec<Placing> {
+    shot.model
+        .iter()
+        .map(|model| Placing::new(model, frame, shot.shot.frames))
+        .collect()
+}

@@ -1,0 +1,175 @@
+//! The camera: an event and axes in its worldline's rest frame.
+
+use crate::relativity::{Event, Worldline};
+use crate::shot::{Shot, Track};
+use glam::{DMat3, DMat4, DVec3};
+
+/// Horizontal angle of view where the shot gives none, degrees.
+const HFOV_DEG: f64 = 90.0;
+
+/// A perspective camera.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Camera {
+    /// Index into the scene's worldlines.
+    pub worldline: usize,
+    /// The exposure, in that worldline's rest frame.
+    pub event: Event,
+    /// Right, up and back, as columns; orthonormal.
+    pub axes: DMat3,
+    /// Tangents of half the horizontal and vertical angle of view.
+    pub tan_half: [f64; 2],
+}
+
+impl Camera {
+    /// The map from the lab to camera space as image files have it: x right, y up, z forward.
+    /// It exists where the camera rests in the lab (`worldline`); to a moving camera, each lab
+    /// point is elsewhere at each time.
+    pub fn camera_from_lab(&self, worldline: &Worldline) -> Option<DMat4> {
+        worldline.celerity.is_rest().then(|| {
+            let [right, up, back] = [self.axes.x_axis, self.axes.y_axis, self.axes.z_axis];
+            let turn = DMat3::from_cols(right, up, -back).transpose();
+            let position = self.event.x + worldline.origin.x;
+            DMat4::from_mat3_translation(turn, -(turn * position))
+        })
+    }
+
+    /// The unit direction in which an image point is seen, in the camera's rest frame. `point` is
+    /// in fractions of the image, from 0 at the left and top to 1.
+    #[inline(always)]
+    pub fn looks_along(&self, point: [f64; 2]) -> DVec3 {
+        let right = (2.0 * point[0] - 1.0) * self.tan_half[0];
+        let up = (1.0 - 2.0 * point[1]) * self.tan_half[1];
+        (self.axes * DVec3::new(right, up, -1.0)).normalize()
+    }
+}
+
+impl Camera {
+    /// The shot's camera in one image, or None where it looks at its own position.
+    ///
+    /// The exposure is the event of the camera's position whose lab time is `lab_time` (metres of
+    /// light travel).
+    pub(super) fn new(
+        shot: &Shot,
+        frame: u32,
+        (index, worldline): (usize, &Worldline),
+        lab_time: f64,
+    ) -> Option<Self> {
+        let camera = &shot.camera;
+        let vector = |track: &Option<Track<[f64; 3]>>| {
+            track
+                .as_ref()
+                .map(|t| DVec3::from(t.at(frame, shot.shot.frames)))
+        };
+        let degrees = |track: &Option<Track<f64>>| {
+            track
+                .as_ref()
+                .map_or(0.0, |t| t.at(frame, shot.shot.frames))
+        };
+        let position = vector(&camera.position).unwrap_or(DVec3::ZERO);
+        let (yaw, pitch) = match vector(&camera.look_at) {
+            None => (
+                degrees(&camera.yaw).to_radians(),
+                degrees(&camera.pitch).to_radians(),
+            ),
+            Some(target) => towards(target - position)?,
+        };
+        let yaw = yaw + degrees(&camera.pan).to_radians();
+        let pitch = pitch + degrees(&camera.tilt).to_radians();
+        let roll = degrees(&camera.roll).to_radians();
+        Some(Self {
+            worldline: index,
+            event: worldline.event_at_lab_time(position, lab_time),
+            axes: axes(yaw, pitch, roll),
+            tan_half: tan_half(shot, frame),
+        })
+    }
+}
+
+/// Yaw (about y, positive to the right of −z) and pitch (up) of a direction.
+fn towards(direction: DVec3) -> Option<(f64, f64)> {
+    let level = direction.x.hypot(direction.z);
+    let yaw = if level > 0.0 {
+        direction.x.atan2(-direction.z)
+    } else {
+        0.0
+    };
+    (direction != DVec3::ZERO).then(|| (yaw, direction.y.atan2(level)))
+}
+
+/// Right, up and back of a camera turned by yaw, then pitch, then roll (clockwise, as seen by
+/// who looks through it).
+fn axes(yaw: f64, pitch: f64, roll: f64) -> DMat3 {
+    DMat3::from_rotation_y(-yaw) * DMat3::from_rotation_x(pitch) * DMat3::from_rotation_z(-roll)
+}
+
+fn tan_half(shot: &Shot, frame: u32) -> [f64; 2] {
+    let [width, height] = shot.image.size.map(f64::from);
+    let tan = |degrees: &Track<f64>| {
+        (degrees.at(frame, shot.shot.frames) / 2.0)
+            .to_radians()
+            .tan()
+    };
+    match (&shot.camera.hfov, &shot.camera.vfov) {
+        (None, Some(vfov)) => [tan(vfov) * width / height, tan(vfov)],
+        (hfov, _) => {
+            let horizontal = tan(hfov.as_ref().unwrap_or(&Track::Constant(HFOV_DEG)));
+            [horizontal, horizontal * height / width]
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::relativity::Celerity;
+
+    fn camera(text: &str) -> (Camera, Worldline) {
+        let text = format!("{text}\n[[model]]\nfile = \"assets/sphere.obj\"\n[material.m]\n");
+        let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("shot.toml");
+        let shot = crate::shot::parse(&text, &path).unwrap();
+        let lab = Worldline {
+            origin: Event::new(0.0, DVec3::new(0.0, 0.0, 1.0)),
+            ..Worldline::LAB
+        };
+        (Camera::new(&shot, 1, (0, &lab), 0.0).unwrap(), lab)
+    }
+
+    #[test]
+    fn camera_space_has_what_is_looked_at_straight_ahead() {
+        let (camera, lab) = camera("[camera]\nposition = [1, 2, 3]\nlook_at = [5, 2, 0]");
+        let map = camera.camera_from_lab(&lab).unwrap();
+        let seen = map.transform_point3(DVec3::new(5.0, 2.0, 1.0));
+        assert!(
+            (seen - DVec3::new(0.0, 0.0, 5.0)).length() < 1e-14,
+            "{seen}"
+        );
+        let moving = Worldline {
+            celerity: Celerity::new(DVec3::X).unwrap(),
+            ..lab
+        };
+        assert_eq!(camera.camera_from_lab(&moving), None);
+    }
+
+    #[test]
+    fn yaw_and_pan_turn_to_the_right_pitch_and_tilt_up_and_roll_clockwise() {
+        let ahead = |text: &str| {
+            camera(&format!("[camera]\n{text}"))
+                .0
+                .looks_along([0.5, 0.5])
+        };
+        assert!((ahead("yaw = 90") - DVec3::X).length() < 1e-15);
+        assert!((ahead("yaw = 60\npan = 30") - DVec3::X).length() < 1e-15);
+        assert!((ahead("pitch = 30\ntilt = 60") - DVec3::Y).length() < 1e-15);
+        // Rolled clockwise by 90 degrees, the top of the image is the camera's former right.
+        let top = camera("[camera]\nroll = 90\nvfov = 90")
+            .0
+            .looks_along([0.5, 0.0]);
+        assert!(top.x > 0.7 && top.y.abs() < 1e-15, "{top}");
+    }
+
+    #[test]
+    fn a_90_degree_view_ends_45_degrees_off_its_axis() {
+        let corner = camera("[camera]\nhfov = 90").0.looks_along([1.0, 0.5]);
+        assert!((corner.x + corner.z).abs() < 1e-15 && corner.y == 0.0);
+    }
+}

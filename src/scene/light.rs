@@ -1,0 +1,194 @@
+//! Lamps and the background, each at rest in a worldline of its own.
+
+use super::model::{Lamp, LampKind};
+use super::spectra::Spectra;
+use crate::shot::{self, LightKind, SpectrumValue};
+use crate::spectrum::{Spectrum, SpectrumError, cie};
+use glam::{DAffine3, DVec3};
+use std::sync::Arc;
+
+/// Lumens in the watt of glTF's lamps as Blender writes them, whatever their colour.
+const LUMENS_PER_WATT: f64 = 683.0;
+
+/// A lamp.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Light {
+    /// For messages.
+    pub name: String,
+    /// Index into the scene's worldlines.
+    pub worldline: usize,
+    /// Where or whence, in the lamp's rest frame.
+    pub shape: LightShape,
+    /// scale × spectrum is the spectral intensity, W·sr⁻¹·nm⁻¹ (sun: irradiance, W·m⁻²·nm⁻¹), in
+    /// the lamp's rest frame.
+    pub scale: f64,
+    /// Shape of the spectrum.
+    pub spectrum: Arc<Spectrum>,
+}
+
+/// Where a lamp's light comes from; positions in metres, directions unit vectors of travel.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum LightShape {
+    /// The same intensity in all directions.
+    Point {
+        /// Position.
+        position: DVec3,
+    },
+    /// Full intensity within the inner cone, none outside the outer, as glTF blends them.
+    Spot {
+        /// Position.
+        position: DVec3,
+        /// Axis of the cone.
+        direction: DVec3,
+        /// Cosine of the inner half-angle.
+        cos_inner: f64,
+        /// Cosine of the outer half-angle, not above `cos_inner`.
+        cos_outer: f64,
+    },
+    /// Parallel light from infinitely far.
+    Sun {
+        /// Direction of travel.
+        direction: DVec3,
+    },
+}
+
+impl LightShape {
+    /// Share of the full intensity that leaves along the unit direction `n`:
+    /// clamp((cos θ − cos outer)/(cos inner − cos outer))² (KHR_lights_punctual), a step where
+    /// the cones are equal.
+    pub fn share(&self, n: DVec3) -> f64 {
+        match *self {
+            Self::Spot {
+                direction,
+                cos_inner,
+                cos_outer,
+                ..
+            } => {
+                let cos = direction.dot(n);
+                if cos >= cos_inner {
+                    1.0
+                } else if cos <= cos_outer {
+                    0.0
+                } else {
+                    ((cos - cos_outer) / (cos_inner - cos_outer)).powi(2)
+                }
+            }
+            Self::Point { .. } | Self::Sun { .. } => 1.0,
+        }
+    }
+}
+
+/// What is seen where no surface is: a sky of one spectral radiance.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Background {
+    /// Index into the scene's worldlines.
+    pub worldline: usize,
+    /// Spectral radiance, W·m⁻²·sr⁻¹·nm⁻¹, in its rest frame; None where it is black.
+    pub spectrum: Option<Arc<Spectrum>>,
+}
+
+/// Why a lamp cannot shine.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub(super) enum LightError {
+    /// Its intensity is in candela or lux, but it has no visible light.
+    #[error("its spectrum has no visible power, so no candela or lux of it can be had")]
+    Dark,
+    /// Its spectrum is none.
+    #[error(transparent)]
+    Spectrum(#[from] SpectrumError),
+}
+
+impl Light {
+    /// A lamp of the shot.
+    pub(super) fn authored(
+        light: &shot::Light,
+        number: usize,
+        worldline: usize,
+        spectra: &Spectra<'_>,
+    ) -> Result<Self, LightError> {
+        let spectrum = match &light.spectrum {
+            Some(value) => spectra.curve(value)?,
+            None => spectra.curve(&SpectrumValue::Name("D65".to_owned()))?,
+        };
+        let scale = match (&light.scale, &light.intensity) {
+            (Some(scale), _) => spectra.at(scale),
+            (None, intensity) => {
+                let lumens = cie::luminous_integral(&spectrum);
+                let intensity = intensity.as_ref().map_or(0.0, |i| spectra.at(i));
+                if !(lumens > 0.0 && (intensity / lumens).is_finite()) {
+                    return Err(LightError::Dark);
+                }
+                intensity / lumens
+            }
+        };
+        let name = light
+            .name
+            .clone()
+            .unwrap_or_else(|| format!("light {}", number + 1));
+        Ok(Self {
+            name,
+            worldline,
+            shape: shape(light, spectra),
+            scale,
+            spectrum,
+        })
+    }
+
+    /// A lamp of a model file, placed by `rest_from_model` and displaced.
+    pub(super) fn imported(
+        lamp: &Lamp,
+        worldline: usize,
+        rest_from_model: &DAffine3,
+        displaced: DVec3,
+    ) -> Result<Self, SpectrumError> {
+        let rest_from_lamp = *rest_from_model * lamp.world;
+        let position = rest_from_lamp.translation + displaced;
+        let direction = rest_from_lamp
+            .transform_vector3(DVec3::NEG_Z)
+            .normalize_or(DVec3::NEG_Z);
+        let shape = match lamp.kind {
+            LampKind::Point => LightShape::Point { position },
+            LampKind::Sun => LightShape::Sun { direction },
+            LampKind::Spot { inner, outer } => LightShape::Spot {
+                position,
+                direction,
+                cos_inner: inner.cos(),
+                cos_outer: outer.cos(),
+            },
+        };
+        Ok(Self {
+            name: lamp.name.clone(),
+            worldline,
+            shape,
+            scale: lamp.intensity / LUMENS_PER_WATT,
+            spectrum: Spectra::color(lamp.color)?,
+        })
+    }
+}
+
+fn shape(light: &shot::Light, spectra: &Spectra<'_>) -> LightShape {
+    let vector = |track: &Option<shot::Track<[f64; 3]>>| {
+        track.as_ref().map_or(DVec3::ZERO, |t| {
+            DVec3::from(t.at(spectra.frame, spectra.shot.shot.frames))
+        })
+    };
+    let cos = |track: &Option<shot::Track<f64>>, default: f64| {
+        track
+            .as_ref()
+            .map_or(default, |t| spectra.at(t))
+            .to_radians()
+            .cos()
+    };
+    let position = vector(&light.position);
+    let direction = vector(&light.direction).normalize_or(DVec3::NEG_Z);
+    match light.kind {
+        LightKind::Point => LightShape::Point { position },
+        LightKind::Sun => LightShape::Sun { direction },
+        LightKind::Spot => LightShape::Spot {
+            position,
+            direction,
+            cos_inner: cos(&light.inner, 0.0),
+            cos_outer: cos(&light.outer, 45.0),
+        },
+    }
+}

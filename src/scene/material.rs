@@ -1,0 +1,246 @@
+//! What surfaces do with light, in their rest frame.
+
+use super::model::ModelMaterial;
+use super::spectra::Spectra;
+use crate::shot;
+use crate::spectrum::{Spectrum, SpectrumError};
+use std::sync::Arc;
+
+/// Exponent of a highlight whose author gave none.
+const EXPONENT: f64 = 40.0;
+
+/// A surface: the sum of its terms, each None where it has none.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Material {
+    /// Name, as the shot or the model file has it.
+    pub name: String,
+    /// Lambertian: L = ρE/π.
+    pub diffuse: Option<Reflectance>,
+    /// Blinn–Phong highlight.
+    pub highlight: Option<Highlight>,
+    /// Cold light of its own: spectral radiance scale × spectrum, W·m⁻²·sr⁻¹·nm⁻¹.
+    pub emission: Option<Reflectance>,
+    /// Thermal light of its own.
+    pub thermal: Option<Thermal>,
+}
+
+/// weight × spectrum.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Reflectance {
+    /// Factor, at least 0.
+    pub weight: f64,
+    /// Shape.
+    pub spectrum: Arc<Spectrum>,
+}
+
+/// A highlight: weight × spectrum × (n+8)/(8π) × (N·H)ⁿ is added to the BRDF.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Highlight {
+    /// weight × spectrum.
+    pub reflectance: Reflectance,
+    /// n, at least 0.
+    pub exponent: f64,
+}
+
+/// Thermal light: emissivity × a black body's curve.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Thermal {
+    /// Kelvin, above 0.
+    pub temperature_k: f64,
+    /// Between 0 and 1 at every wavelength.
+    pub emissivity: Arc<Spectrum>,
+    /// How the curve is scaled.
+    pub curve: Curve,
+}
+
+/// Scale of a thermal curve.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Curve {
+    /// Planck's law.
+    Absolute,
+    /// Planck's curve scaled so that its peak is this many W·m⁻²·sr⁻¹·nm⁻¹, as the plates of 1990
+    /// must have been.
+    Peak(f64),
+}
+
+/// Why a term of a material is none.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub(super) enum MaterialError {
+    /// A curve cannot be made.
+    #[error("{0}")]
+    Spectrum(#[from] SpectrumError),
+    /// Neither the shot nor the model file gives the term a spectrum.
+    #[error("`{0}` has no spectrum")]
+    Unbacked(&'static str),
+    /// More light is given back than arrives.
+    #[error("`{term}` reaches {value}, more than all light")]
+    TooBright {
+        /// Key of the term.
+        term: &'static str,
+        /// weight × spectrum at its highest.
+        value: f64,
+    },
+}
+
+impl MaterialError {
+    /// The key below the material's that it concerns, with a dot; empty if it is all of it.
+    pub(super) fn key(&self) -> String {
+        match self {
+            Self::Spectrum(_) => String::new(),
+            Self::Unbacked(term) | Self::TooBright { term, .. } => format!(".{term}"),
+        }
+    }
+
+    /// What to do.
+    pub(super) fn help(&self) -> &'static str {
+        match self {
+            Self::Spectrum(_) => "give the spectrum other numbers",
+            Self::Unbacked(_) => "write `spectrum = …` beside it: a name, a number or a table",
+            Self::TooBright { .. } => "lower its weight: weight × spectrum is at most 1",
+        }
+    }
+}
+
+impl Material {
+    /// A material of a model file: its base colour and its glow.
+    pub(super) fn imported(file: &ModelMaterial) -> Result<Self, SpectrumError> {
+        let term = |rgb: [f64; 3]| -> Result<Option<Reflectance>, SpectrumError> {
+            let some = rgb.iter().any(|&c| c > 0.0);
+            some.then(|| {
+                Ok(Reflectance {
+                    weight: 1.0,
+                    spectrum: Spectra::color(rgb)?,
+                })
+            })
+            .transpose()
+        };
+        Ok(Self {
+            name: file.name.clone(),
+            diffuse: term(file.base_color)?,
+            emission: term(file.emissive)?,
+            ..Self::default()
+        })
+    }
+
+    /// The shot's material laid over this one: keys that it gives replace, the rest stays.
+    pub(super) fn overlaid(
+        mut self,
+        shot: &shot::Material,
+        spectra: &Spectra<'_>,
+    ) -> Result<Self, MaterialError> {
+        if let Some(term) = &shot.diffuse {
+            let over = Over {
+                term: "diffuse",
+                weight: &term.weight,
+                spectrum: &term.spectrum,
+            };
+            self.diffuse = Some(over.reflectance(self.diffuse, spectra)?);
+        }
+        if let Some(term) = &shot.emission {
+            let over = Over {
+                term: "emission",
+                weight: &term.scale,
+                spectrum: &term.spectrum,
+            };
+            self.emission = Some(over.lay(self.emission, spectra)?);
+        }
+        if let Some(term) = &shot.highlight {
+            let exponent = term.exponent.as_ref().map(|e| spectra.at(e));
+            let below = self.highlight.take();
+            let kept = below.as_ref().map_or(EXPONENT, |h| h.exponent);
+            let over = Over {
+                term: "highlight",
+                weight: &term.weight,
+                spectrum: &term.spectrum,
+            };
+            let reflectance = over.reflectance(below.map(|h| h.reflectance), spectra)?;
+            self.highlight = Some(Highlight {
+                reflectance,
+                exponent: exponent.unwrap_or(kept),
+            });
+        }
+        if let Some(term) = &shot.thermal {
+            self.thermal = thermal(term, spectra)?;
+        }
+        Ok(self)
+    }
+
+    /// The same without terms that contribute nothing.
+    pub(super) fn pruned(mut self) -> Self {
+        let seen = |r: &Reflectance| r.weight > 0.0 && *r.spectrum != Spectrum::Constant(0.0);
+        self.diffuse = self.diffuse.filter(seen);
+        self.emission = self.emission.filter(seen);
+        self.highlight = self.highlight.filter(|h| seen(&h.reflectance));
+        self
+    }
+}
+
+/// Keys of a term that are laid over what stands there already.
+struct Over<'a> {
+    term: &'static str,
+    weight: &'a Option<shot::Track<f64>>,
+    spectrum: &'a Option<shot::SpectrumValue>,
+}
+
+impl Over<'_> {
+    fn lay(
+        &self,
+        below: Option<Reflectance>,
+        spectra: &Spectra<'_>,
+    ) -> Result<Reflectance, MaterialError> {
+        let (kept, curve) = below.map_or((1.0, None), |b| (b.weight, Some(b.spectrum)));
+        let weight = self.weight.as_ref().map_or(kept, |w| spectra.at(w));
+        let spectrum = match (self.spectrum, curve) {
+            (Some(value), _) => spectra.curve(value)?,
+            (None, Some(curve)) => curve,
+            (None, None) if weight == 0.0 => Arc::new(Spectrum::Constant(0.0)),
+            (None, None) => return Err(MaterialError::Unbacked(self.term)),
+        };
+        Ok(Reflectance { weight, spectrum })
+    }
+
+    fn reflectance(
+        &self,
+        below: Option<Reflectance>,
+        spectra: &Spectra<'_>,
+    ) -> Result<Reflectance, MaterialError> {
+        let made = self.lay(below, spectra)?;
+        within_one(self.term, made.weight, &made.spectrum)?;
+        Ok(made)
+    }
+}
+
+/// Rounding that a product of authored numbers may carry above 1.
+const ROUNDING: f64 = 1e-9;
+
+/// Refuses a share above 1. What a spline overshoots between its points is clamped instead, and
+/// its points were checked when the shot was read.
+fn within_one(term: &'static str, weight: f64, spectrum: &Spectrum) -> Result<(), MaterialError> {
+    let value = weight * spectrum.peak();
+    if matches!(spectrum, Spectrum::Cardinal(_)) || value <= 1.0 + ROUNDING {
+        Ok(())
+    } else {
+        Err(MaterialError::TooBright { term, value })
+    }
+}
+
+/// A thermal term, or None at 0 K.
+fn thermal(term: &shot::Thermal, spectra: &Spectra<'_>) -> Result<Option<Thermal>, MaterialError> {
+    let temperature_k = term.temperature.as_ref().map_or(0.0, |t| spectra.at(t));
+    let emissivity = match &term.emissivity {
+        Some(value) => spectra.curve(value)?,
+        None => Arc::new(Spectrum::Constant(1.0)),
+    };
+    within_one("thermal.emissivity", 1.0, &emissivity)?;
+    let curve = match term.curve {
+        Some(shot::ThermalCurve::Peak) => {
+            Curve::Peak(term.strength.as_ref().map_or(1.0, |s| spectra.at(s)))
+        }
+        Some(shot::ThermalCurve::Absolute) | None => Curve::Absolute,
+    };
+    Ok((temperature_k > 0.0).then_some(Thermal {
+        temperature_k,
+        emissivity,
+        curve,
+    }))
+}

@@ -1,0 +1,24 @@
+//! The scene of one image: bodies, lights, camera and background with everything resolved — no
+//! path, option, default or name is left to look up. Positions are those of each thing's own
+//! rest frame, in metres; angles are in radians.
+//!
+//! In: a [`Shot`](crate::shot::Shot) and a frame number. Out: a [`Scene`].
+
+pub mod model;
+
+mod body;
+mod camera;
+mod library;
+mod light;
+mod material;
+mod resolve;
+mod spectra;
+mod surfaces;
+
+pub use body::{Geometry, Instance, SurfacePoint};
+pub use camera::Camera;
+pub use library::Library;
+pub use light::{Background, Light, LightShape};
+pub use material::{Curve, Highlight, Material, Reflectance, Thermal};
+pub use model::Mesh;
+pub use resolve::Scene;

@@ -1,0 +1,218 @@
+//! What can be wrong with a model file: each message says what, where, what was expected, what to do.
+
+use std::path::PathBuf;
+use thiserror::Error;
+
+/// Why a model file was not read.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum ModelError {
+    /// The file is not there.
+    #[error("model file `{}` does not exist: check the path, which is relative to the shot", file.display())]
+    Missing {
+        /// The model file.
+        file: PathBuf,
+    },
+    /// The file could not be read.
+    #[error("model file `{}` cannot be read: {source}", file.display())]
+    Read {
+        /// The model file.
+        file: PathBuf,
+        /// What the system said.
+        source: std::io::Error,
+    },
+    /// A folder, pipe or device stands where a file should.
+    #[error("`{}` is not a regular file: expected a model in OBJ, glTF or glb form", file.display())]
+    NotAFile {
+        /// The model file, or one that it names.
+        file: PathBuf,
+    },
+    /// More bytes than are read.
+    #[error("model `{}` and the files it names come to {bytes} bytes, more than the {limit} that are read: split or decimate it", file.display())]
+    TooLarge {
+        /// The model file.
+        file: PathBuf,
+        /// Size found.
+        bytes: u64,
+        /// Size allowed.
+        limit: u64,
+    },
+    /// The extension names no form that is read.
+    #[error("`{}` is of a kind that is not read: expected a name ending in .obj, .gltf or .glb; export it so", file.display())]
+    UnknownKind {
+        /// The model file.
+        file: PathBuf,
+    },
+    /// The file holds no surface and no lamp.
+    #[error("model `{}` is empty: it places no triangle of nonzero area and no lamp; export at least one mesh with faces", file.display())]
+    Empty {
+        /// The model file.
+        file: PathBuf,
+    },
+    /// The file's text is not OBJ at all.
+    #[error("`{}` is not an OBJ file: line {line} begins with {found}, expected one of v, vt, vn, f, o, g, s, usemtl, mtllib or #", file.display())]
+    NotObj {
+        /// The model file.
+        file: PathBuf,
+        /// Line, from 1.
+        line: usize,
+        /// What stands there.
+        found: String,
+    },
+    /// A line of an OBJ or MTL file that cannot be understood.
+    #[error("{}:{line}: found `{found}`, expected {expected}", file.display())]
+    Line {
+        /// The OBJ or MTL file.
+        file: PathBuf,
+        /// Line, from 1.
+        line: usize,
+        /// What stands there.
+        found: String,
+        /// What should.
+        expected: &'static str,
+    },
+    /// A face of an OBJ file refers to something that is not there.
+    #[error("{}:{line}: the face asks for {what} {index}, but there are only {count}: the file is cut short or was edited by hand; export it again", file.display())]
+    ObjIndex {
+        /// The model file.
+        file: PathBuf,
+        /// Line, from 1.
+        line: usize,
+        /// "position", "texture coordinate" or "normal".
+        what: &'static str,
+        /// As written: from 1, or negative from the latest.
+        index: i64,
+        /// How many there are.
+        count: i64,
+    },
+    /// The OBJ reader refused the file, and it is not known where.
+    #[error("model `{}` cannot be read as OBJ: {reason}", file.display())]
+    Obj {
+        /// The model file.
+        file: PathBuf,
+        /// What it said.
+        reason: String,
+    },
+    /// The container of a glb file is broken.
+    #[error("`{}` is no valid glb file: at byte {byte} expected {expected}, found {found}; it may be cut short: copy or export it again", file.display())]
+    Glb {
+        /// The model file.
+        file: PathBuf,
+        /// Where.
+        byte: usize,
+        /// What should stand there.
+        expected: String,
+        /// What does.
+        found: String,
+    },
+    /// The JSON of a glTF file does not parse, or is not of glTF's shape.
+    #[error("the JSON of `{}` is not glTF: {reason}", file.display())]
+    Json {
+        /// The model file.
+        file: PathBuf,
+        /// What the parser said, with line and column where it knows them.
+        reason: String,
+    },
+    /// The file needs an extension that is not supported.
+    #[error("model `{}` requires the extension {extension}, which is not supported: {remedy}", file.display())]
+    Extension {
+        /// The model file.
+        file: PathBuf,
+        /// The extension's name.
+        extension: String,
+        /// What to do about it.
+        remedy: &'static str,
+    },
+    /// An item of a glTF file refers to another that is not there.
+    #[error("model `{}`: {from} refers to {what} {index}, but there are only {count}: the file is broken; export it again", file.display())]
+    Dangling {
+        /// The model file.
+        file: PathBuf,
+        /// The item that refers.
+        from: String,
+        /// What it refers to.
+        what: &'static str,
+        /// By which index.
+        index: usize,
+        /// How many there are.
+        count: usize,
+    },
+    /// A value of a glTF file that breaks a rule.
+    #[error("model `{}`: {at} {problem}", file.display())]
+    Invalid {
+        /// The model file.
+        file: PathBuf,
+        /// Which item.
+        at: String,
+        /// What is wrong with it, found and expected.
+        problem: String,
+    },
+    /// An index of a mesh beyond its vertices.
+    #[error("model `{}`: {mesh} has a triangle with vertex {index}, but only {count} vertices: the file is broken; export it again", file.display())]
+    Index {
+        /// The model file.
+        file: PathBuf,
+        /// Which mesh.
+        mesh: String,
+        /// The index.
+        index: u32,
+        /// How many vertices there are.
+        count: usize,
+    },
+    /// A number that is NaN or infinite.
+    #[error("model `{}`: {at} is not finite: found {found}, expected numbers below 1e38; look for a broken modifier or scale", file.display())]
+    NotFinite {
+        /// The model file.
+        file: PathBuf,
+        /// Which number.
+        at: String,
+        /// Its value.
+        found: String,
+    },
+    /// The nodes do not form a tree.
+    #[error("model `{}`: {node} is its own ancestor or the child of two nodes, expected a tree: duplicate it so that each copy has one parent", file.display())]
+    NotATree {
+        /// The model file.
+        file: PathBuf,
+        /// Which node.
+        node: String,
+    },
+    /// A file name that leads out of the folders that may be read.
+    #[error("model `{}` names the file `{uri}`, outside the folders it may read, its own and the shot's: put that file beside the model or the shot", file.display())]
+    Outside {
+        /// The model file.
+        file: PathBuf,
+        /// As the model has it.
+        uri: String,
+    },
+    /// A file name that is absolute, remote or not decodable.
+    #[error("model `{}` names the file `{uri}`, which is {problem}: expected a name relative to the model; put that file beside it", file.display())]
+    Uri {
+        /// The model file.
+        file: PathBuf,
+        /// As the model has it, cut short.
+        uri: String,
+        /// What is wrong with it.
+        problem: &'static str,
+    },
+    /// A file that the model names is not there.
+    #[error("model `{}` names the file `{uri}`, which does not exist: copy it along with the model, or export as one .glb", file.display())]
+    MissingPart {
+        /// The model file.
+        file: PathBuf,
+        /// As the model has it.
+        uri: String,
+    },
+    /// More of something than is read.
+    #[error("model `{}` holds {count} {what} or more, expected at most {limit}", file.display())]
+    TooMany {
+        /// The model file.
+        file: PathBuf,
+        /// Of what.
+        what: &'static str,
+        /// How many were counted.
+        count: u64,
+        /// How many are allowed.
+        limit: u64,
+    },
+}

@@ -1,0 +1,279 @@
+//! The node tree: where every mesh, instance and lamp stands.
+//!
+//! Walked with a stack of its own, so that depth costs no call stack. The file shows its default
+//! scene; without one its only scene; otherwise every node without a parent.
+
+use super::super::mesh::is_in_range;
+use super::super::{Model, ModelError, Placement, Warning};
+use super::{Source, name_of};
+use ::glam::{DAffine3, DMat3, DMat4, DQuat, DVec3};
+use ::gltf::json::Index;
+use ::gltf::json::accessor::{Accessor, ComponentType};
+use serde_json::Value;
+
+/// Instances of meshes in one file at most.
+const MAX_INSTANCES: usize = 10_000_000;
+
+/// A placement whose volume is less than this part of its axes' box is squashed flat.
+const FLAT: f64 = 1e-12;
+
+/// Puts every instance and lamp of the scene into the model.
+pub(super) fn place(source: &Source<'_>, model: &mut Model) -> Result<(), ModelError> {
+    let parentless = source.parentless_nodes()?;
+    let mut stack = Vec::new();
+    for root in source.scene_roots(&parentless)?.into_iter().rev() {
+        stack.push((root, DAffine3::IDENTITY));
+    }
+    let mut made = vec![None; source.root.meshes.len()];
+    let mut is_visited = vec![false; source.root.nodes.len()];
+    while let Some((index, parent)) = stack.pop() {
+        if std::mem::replace(&mut is_visited[index], true) {
+            return Err(source.not_a_tree(index));
+        }
+        let world = parent * source.local(index)?;
+        let [x, y, z] = [
+            world.matrix3.x_axis,
+            world.matrix3.y_axis,
+            world.matrix3.z_axis,
+        ];
+        if ![x, y, z, world.translation].into_iter().all(is_in_range) {
+            return Err(ModelError::NotFinite {
+                file: source.file.clone(),
+                at: format!("the place of node `{}`", source.node_name(index)),
+                found: world.to_string(),
+            });
+        }
+        source.node(index, &world, &mut made, model)?;
+        let children = source.root.nodes[index].children.iter().flatten().rev();
+        stack.extend(children.map(|child| (child.value(), world)));
+    }
+    Ok(())
+}
+
+impl Source<'_> {
+    fn node(
+        &self,
+        index: usize,
+        world: &DAffine3,
+        made: &mut [Option<Vec<usize>>],
+        model: &mut Model,
+    ) -> Result<(), ModelError> {
+        let node = &self.root.nodes[index];
+        let name = self.node_name(index);
+        let extensions = &self.raw["nodes"][index]["extensions"];
+        let light = extensions["KHR_lights_punctual"]["light"].as_u64();
+        if let Some(light) = light {
+            self.lamp(light, &name, world, model)?;
+        }
+        if let Some(mesh) = node.mesh {
+            let from = format!("node `{name}`");
+            self.item(&self.root.meshes, mesh, "mesh", &from)?;
+            if made[mesh.value()].is_none() {
+                let parts = self.mesh(mesh.value(), model)?;
+                made[mesh.value()] = Some(parts);
+            }
+            if node.skin.is_some() {
+                model.warnings.push(Warning::Skin { node: from.clone() });
+            }
+            let parts = made[mesh.value()].as_deref().unwrap_or_default();
+            let instancing = &extensions["EXT_mesh_gpu_instancing"]["attributes"];
+            for instance in self.instances(instancing, &from)? {
+                self.stand(parts, *world * instance, &name, model)?;
+            }
+        }
+        let has_children = node.children.as_ref().is_some_and(|c| !c.is_empty());
+        let is_empty = node.mesh.is_none() && node.camera.is_none() && light.is_none();
+        if is_empty && !has_children && sounds_like_a_lamp(&name) {
+            model.warnings.push(Warning::LostLamp {
+                node: format!("node `{name}`"),
+            });
+        }
+        Ok(())
+    }
+
+    fn stand(
+        &self,
+        parts: &[usize],
+        world: DAffine3,
+        node: &str,
+        model: &mut Model,
+    ) -> Result<(), ModelError> {
+        let axes = world.matrix3;
+        let room = axes.x_axis.length() * axes.y_axis.length() * axes.z_axis.length();
+        let volume = axes.determinant().abs();
+        let has_volume = volume > FLAT * room && world.inverse().is_finite();
+        if !has_volume {
+            model.warnings.push(Warning::Squashed {
+                node: format!("node `{node}`"),
+            });
+            return Ok(());
+        }
+        for &mesh in parts {
+            model.placements.push(Placement {
+                mesh,
+                world,
+                node: node.to_owned(),
+            });
+        }
+        if model.placements.len() > MAX_INSTANCES {
+            return Err(ModelError::TooMany {
+                file: self.file.clone(),
+                what: "instances of meshes",
+                count: model.placements.len() as u64,
+                limit: MAX_INSTANCES as u64,
+            });
+        }
+        Ok(())
+    }
+
+    /// The node's own transforms by EXT_mesh_gpu_instancing; one that does nothing without it.
+    fn instances(&self, attributes: &Value, from: &str) -> Result<Vec<DAffine3>, ModelError> {
+        const FLOAT: [ComponentType; 1] = [ComponentType::F32];
+        const TURN: [ComponentType; 3] =
+            [ComponentType::F32, ComponentType::I8, ComponentType::I16];
+        let Some(attributes) = attributes.as_object().filter(|a| !a.is_empty()) else {
+            return Ok(vec![DAffine3::IDENTITY]);
+        };
+        let at = |key: &str| {
+            let index = attributes.get(key)?.as_u64()?;
+            Some(Index::<Accessor>::new(
+                u32::try_from(index).unwrap_or(u32::MAX),
+            ))
+        };
+        let shift = at("TRANSLATION")
+            .map(|i| self.vectors::<3>(i, &FLOAT, from))
+            .transpose()?;
+        let turn = at("ROTATION")
+            .map(|i| self.vectors::<4>(i, &TURN, from))
+            .transpose()?;
+        let scale = at("SCALE")
+            .map(|i| self.vectors::<3>(i, &FLOAT, from))
+            .transpose()?;
+        let counts = [
+            shift.as_ref().map(Vec::len),
+            turn.as_ref().map(Vec::len),
+            scale.as_ref().map(Vec::len),
+        ];
+        let Some(count) = counts.into_iter().flatten().next() else {
+            return Err(self.invalid(from, "has instances without TRANSLATION, ROTATION or SCALE"));
+        };
+        if counts.into_iter().flatten().any(|other| other != count) {
+            return Err(self.invalid(from, "has instances with attributes of unequal length"));
+        }
+        (0..count)
+            .map(|i| {
+                let shift = shift.as_ref().map_or(DVec3::ZERO, |v| DVec3::from(v[i]));
+                let scale = scale.as_ref().map_or(DVec3::ONE, |v| DVec3::from(v[i]));
+                let turn = turn.as_ref().map_or([0.0, 0.0, 0.0, 1.0], |v| v[i]);
+                self.affine(scale, turn, shift, &format!("instance {i} of {from}"))
+            })
+            .collect()
+    }
+
+    fn local(&self, index: usize) -> Result<DAffine3, ModelError> {
+        let raw = &self.raw["nodes"][index];
+        let at = || format!("node `{}`", self.node_name(index));
+        if let Some(m) = numbers::<16>(&raw["matrix"]) {
+            if [m[3], m[7], m[11], m[15]] != [0.0, 0.0, 0.0, 1.0] {
+                return Err(self.invalid(
+                    &at(),
+                    "has a matrix that is not affine: expected 0 0 0 1 in its last row",
+                ));
+            }
+            return Ok(DAffine3::from_mat4(DMat4::from_cols_array(&m)));
+        }
+        let shift = numbers(&raw["translation"]).map_or(DVec3::ZERO, DVec3::from_array);
+        let scale = numbers(&raw["scale"]).map_or(DVec3::ONE, DVec3::from_array);
+        let turn = numbers(&raw["rotation"]).unwrap_or([0.0, 0.0, 0.0, 1.0]);
+        self.affine(scale, turn, shift, &at())
+    }
+
+    fn affine(
+        &self,
+        scale: DVec3,
+        turn: [f64; 4],
+        shift: DVec3,
+        at: &str,
+    ) -> Result<DAffine3, ModelError> {
+        let length = turn.iter().map(|v| v * v).sum::<f64>().sqrt();
+        if !(length > 0.0 && length.is_finite()) {
+            let problem = format!("has the rotation {turn:?}, expected a quaternion of length 1");
+            return Err(self.invalid(at, problem));
+        }
+        let turn = DQuat::from_array(turn.map(|v| v / length));
+        let axes = DMat3::from_quat(turn) * DMat3::from_diagonal(scale);
+        Ok(DAffine3::from_mat3_translation(axes, shift))
+    }
+
+    /// Nodes that are nobody's child, if all nodes form trees.
+    fn parentless_nodes(&self) -> Result<Vec<usize>, ModelError> {
+        let nodes = &self.root.nodes;
+        let mut has_parent = vec![false; nodes.len()];
+        for (index, node) in nodes.iter().enumerate() {
+            for &child in node.children.iter().flatten() {
+                let from = format!("node `{}`", self.node_name(index));
+                self.item(nodes, child, "node", &from)?;
+                if std::mem::replace(&mut has_parent[child.value()], true) {
+                    return Err(self.not_a_tree(child.value()));
+                }
+            }
+        }
+        let roots: Vec<usize> = (0..nodes.len()).filter(|&i| !has_parent[i]).collect();
+        // With one parent each, what no root leads to goes round in a circle.
+        let mut is_reached = vec![false; nodes.len()];
+        let mut stack = roots.clone();
+        while let Some(index) = stack.pop() {
+            is_reached[index] = true;
+            stack.extend(
+                nodes[index]
+                    .children
+                    .iter()
+                    .flatten()
+                    .map(|child| child.value()),
+            );
+        }
+        match is_reached.iter().position(|&reached| !reached) {
+            Some(index) => Err(self.not_a_tree(index)),
+            None => Ok(roots),
+        }
+    }
+
+    fn scene_roots(&self, parentless: &[usize]) -> Result<Vec<usize>, ModelError> {
+        let scenes = &self.root.scenes;
+        let scene = match (self.root.scene, scenes.as_slice()) {
+            (Some(index), _) => self.item(scenes, index, "scene", "the file")?,
+            (None, [only]) => only,
+            (None, _) => return Ok(parentless.to_vec()),
+        };
+        for &node in &scene.nodes {
+            self.item(&self.root.nodes, node, "node", "the scene")?;
+        }
+        Ok(scene.nodes.iter().map(|node| node.value()).collect())
+    }
+
+    fn not_a_tree(&self, index: usize) -> ModelError {
+        let node = format!("node `{}`", self.node_name(index));
+        ModelError::NotATree {
+            file: self.file.clone(),
+            node,
+        }
+    }
+
+    fn node_name(&self, index: usize) -> String {
+        let node = self.root.nodes.get(index);
+        name_of(node.and_then(|node| node.name.as_deref()), "node", index)
+    }
+}
+
+fn numbers<const N: usize>(value: &Value) -> Option<[f64; N]> {
+    let list = value.as_array()?;
+    let numbers: Option<Vec<f64>> = list.iter().map(Value::as_f64).collect();
+    numbers?.try_into().ok()
+}
+
+fn sounds_like_a_lamp(name: &str) -> bool {
+    let name = name.to_lowercase();
+    ["light", "lamp", "area", "sun", "spot", "panel"]
+        .iter()
+        .any(|word| name.contains(word))
+}

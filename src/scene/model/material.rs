@@ -1,0 +1,42 @@
+//! Checks that materials of both file kinds share.
+
+use super::{ModelError, ModelMaterial, Warning};
+use std::path::Path;
+
+impl ModelMaterial {
+    /// The material with its reflectance clamped to 0..1, which warns, and its emission finite and
+    /// not negative, which is a mistake otherwise.
+    pub(super) fn checked(
+        mut self,
+        file: &Path,
+        warnings: &mut Vec<Warning>,
+    ) -> Result<Self, ModelError> {
+        let bad = self
+            .base_color
+            .iter()
+            .chain(&self.emissive)
+            .find(|v| !v.is_finite());
+        if let Some(found) = bad {
+            return Err(ModelError::NotFinite {
+                file: file.to_owned(),
+                at: format!("a color of material `{}`", self.name),
+                found: found.to_string(),
+            });
+        }
+        if let Some(found) = self.emissive.iter().find(|&&v| v < 0.0) {
+            return Err(ModelError::Invalid {
+                file: file.to_owned(),
+                at: format!("material `{}`", self.name),
+                problem: format!("gives off light of {found}, expected 0 or more"),
+            });
+        }
+        let clamped = self.base_color.map(|v| v.clamp(0.0, 1.0));
+        if clamped != self.base_color {
+            warnings.push(Warning::Clamped {
+                material: self.name.clone(),
+            });
+            self.base_color = clamped;
+        }
+        Ok(self)
+    }
+}

@@ -1,0 +1,124 @@
+//! Wavefront OBJ: one mesh for each object or group and material, polygons cut into triangles.
+//!
+//! The text is checked line by line and reduced to what is read, so that mistakes carry their line
+//! and tobj meets nothing that it would misread or panic at; tobj makes the meshes. Smoothing
+//! groups are not interpreted: without `vn` lines a mesh is flat.
+
+mod library;
+mod scan;
+
+use super::files::Files;
+use super::mesh::RawMesh;
+use super::polygon::Triangulator;
+use super::{Model, ModelError, ModelMaterial, Placement, Warning};
+use ::glam::{DAffine3, DVec3};
+use indexmap::IndexMap;
+use tobj::LoadOptions;
+
+/// Reads the text of an OBJ file and the material libraries it names.
+pub(super) fn read(bytes: Vec<u8>, files: &mut Files) -> Result<Model, ModelError> {
+    let text = String::from_utf8(bytes)
+        .unwrap_or_else(|error| String::from_utf8_lossy(error.as_bytes()).into_owned());
+    let scan = scan::scan(&text, files)?;
+    drop(text);
+    let mut warnings = scan.warnings;
+    let library = library::read(&scan.libraries, &scan.materials, files, &mut warnings)?;
+    let options = LoadOptions {
+        single_index: true,
+        ..LoadOptions::default()
+    };
+    let (parts, _) = tobj::load_obj_buf(&mut scan.text.as_bytes(), &options, |_| {
+        let named = |m: &ModelMaterial| tobj::Material {
+            name: m.name.clone(),
+            ..Default::default()
+        };
+        let names = library.iter().enumerate().map(|(i, m)| (m.name.clone(), i));
+        Ok((library.iter().map(named).collect(), names.collect()))
+    })
+    .map_err(|error| ModelError::Obj {
+        file: files.model.clone(),
+        reason: error.to_string(),
+    })?;
+    let mut model = Model {
+        materials: library,
+        ..Model::default()
+    };
+    for raw in merge(parts, &mut warnings) {
+        let node = raw.name.clone();
+        if let Some(mesh) = raw.check(&files.model, &mut warnings)? {
+            let mesh_index = model.meshes.len();
+            model.meshes.push(mesh);
+            model.placements.push(Placement {
+                mesh: mesh_index,
+                world: DAffine3::IDENTITY,
+                node,
+            });
+        }
+    }
+    model.warnings = warnings;
+    Ok(model)
+}
+
+/// One mesh for each name and material, in the order of their first faces.
+fn merge(parts: Vec<tobj::Model>, warnings: &mut Vec<Warning>) -> Vec<RawMesh> {
+    let mut merged: IndexMap<(String, Option<usize>), RawMesh> = IndexMap::new();
+    let mut cutter = Triangulator::default();
+    for part in parts {
+        let key = (part.name, part.mesh.material_id);
+        let (name, material) = (key.0.clone(), key.1);
+        let raw = merged.entry(key).or_insert_with(|| {
+            let normals = Some(Vec::new());
+            RawMesh {
+                name,
+                material,
+                normals,
+                ..RawMesh::default()
+            }
+        });
+        append(raw, &part.mesh, &mut cutter);
+    }
+    let mut meshes: Vec<RawMesh> = merged.into_values().collect();
+    for raw in &mut meshes {
+        let count = raw.normals.as_ref().map_or(0, Vec::len);
+        if count != raw.positions.len() {
+            raw.normals = None;
+        }
+        if count != raw.positions.len() && count > 0 {
+            warnings.push(Warning::SomeNormals {
+                mesh: raw.name.clone(),
+            });
+        }
+    }
+    meshes
+}
+
+fn append(raw: &mut RawMesh, part: &tobj::Mesh, cutter: &mut Triangulator) {
+    let base = raw.positions.len() as u32;
+    let triple = |v: &[f64]| DVec3::new(v[0], v[1], v[2]);
+    let positions: Vec<DVec3> = part.positions.chunks_exact(3).map(triple).collect();
+    if let Some(normals) = &mut raw.normals {
+        normals.extend(part.normals.chunks_exact(3).map(triple));
+    }
+    let all_triangles = vec![3; part.indices.len() / 3];
+    let arities = if part.face_arities.is_empty() {
+        &all_triangles
+    } else {
+        &part.face_arities
+    };
+    let mut rest = part.indices.as_slice();
+    let mut corners = Vec::new();
+    for &arity in arities {
+        let Some((face, after)) = rest.split_at_checked(arity as usize) else {
+            break;
+        };
+        rest = after;
+        corners.clear();
+        corners.extend(face.iter().filter_map(|&i| positions.get(i as usize)));
+        if corners.len() == face.len() {
+            cutter.cut(&corners, |ends| {
+                raw.triangles.push(ends.map(|i| base + face[i]))
+            });
+        }
+    }
+    raw.positions.extend(positions);
+}

@@ -1,0 +1,180 @@
+//! MTL: the color, the emission and the name of materials; all else of them is a warning.
+//!
+//! `Ke` is color times strength. A material with a picture (`map_Kd`) has no `Kd` line in Blender's
+//! files and is drawn white. Surfaces of OBJ are seen from both sides.
+
+use super::super::files::Files;
+use super::super::{ModelError, ModelMaterial, Warning};
+use indexmap::{IndexMap, IndexSet};
+use std::path::Path;
+
+/// White, where nothing says otherwise.
+const WHITE: [f64; 3] = [1.0; 3];
+
+/// The materials that the libraries define, and white ones for those of `used` that none does.
+pub(super) fn read(
+    libraries: &IndexSet<String>,
+    used: &IndexSet<String>,
+    files: &mut Files,
+    warnings: &mut Vec<Warning>,
+) -> Result<Vec<ModelMaterial>, ModelError> {
+    let mut materials = IndexMap::new();
+    for name in libraries {
+        for (part, bytes) in open(name, files, warnings)? {
+            let text = String::from_utf8_lossy(&bytes);
+            let checked = check(&text, Path::new(&part))?;
+            let (found, _) =
+                tobj::load_mtl_buf(&mut checked.as_bytes()).map_err(|error| ModelError::Obj {
+                    file: part.clone().into(),
+                    reason: error.to_string(),
+                })?;
+            materials.extend(found.into_iter().map(|m| (m.name.clone(), m)));
+        }
+    }
+    let mut out = Vec::new();
+    for name in used {
+        let Some(material) = materials.get(name) else {
+            warnings.push(Warning::UndefinedMaterial {
+                material: name.clone(),
+            });
+            let name = name.clone();
+            out.push(ModelMaterial {
+                name,
+                base_color: WHITE,
+                emissive: [0.0; 3],
+                double_sided: true,
+            });
+            continue;
+        };
+        warn(material, warnings);
+        let plain = ModelMaterial {
+            name: name.clone(),
+            base_color: material.diffuse.unwrap_or(WHITE),
+            emissive: material.emissive.unwrap_or_default(),
+            double_sided: true,
+        };
+        out.push(plain.checked(&files.model, warnings)?);
+    }
+    Ok(out)
+}
+
+/// The file of that name, or, since names may hold blanks and a line may hold names, its words.
+fn open(
+    name: &str,
+    files: &mut Files,
+    warnings: &mut Vec<Warning>,
+) -> Result<Vec<(String, Vec<u8>)>, ModelError> {
+    match files.part(name) {
+        Ok(bytes) => return Ok(vec![(name.to_owned(), bytes)]),
+        Err(ModelError::MissingPart { .. }) => {}
+        Err(error) => return Err(error),
+    }
+    let mut found = Vec::new();
+    for word in name.split_whitespace() {
+        match files.part(word) {
+            Ok(bytes) => found.push((word.to_owned(), bytes)),
+            Err(ModelError::MissingPart { .. }) => {}
+            Err(error) => return Err(error),
+        }
+    }
+    if found.is_empty() {
+        warnings.push(Warning::MissingLibrary {
+            name: name.to_owned(),
+        });
+    }
+    Ok(found)
+}
+
+/// The lines that are read, each of the form that tobj expects.
+fn check(text: &str, file: &Path) -> Result<String, ModelError> {
+    let mut out = String::new();
+    for (index, line) in text.lines().enumerate() {
+        let line = line.trim();
+        let (keyword, rest) = line.split_once(char::is_whitespace).unwrap_or((line, ""));
+        let rest = rest.trim();
+        let wrong = |expected| ModelError::Line {
+            file: file.to_owned(),
+            line: index + 1,
+            found: line.chars().take(60).collect(),
+            expected,
+        };
+        let values: Option<Vec<f64>> = rest.split_whitespace().map(|w| w.parse().ok()).collect();
+        let checked = match (keyword, values.as_deref()) {
+            ("newmtl", _) if rest.is_empty() => return Err(wrong("newmtl and a name")),
+            ("Kd" | "Ke", Some([r, g, b])) => format!("{r} {g} {b}"),
+            ("Kd" | "Ke", Some([v])) => format!("{v} {v} {v}"),
+            ("Kd" | "Ke", _) => return Err(wrong("3 numbers: a linear RGB color")),
+            ("d", Some([v])) => v.to_string(),
+            ("newmtl" | "Tr" | "Pm" | "Pc" | "Ps" | "norm", _) => rest.to_owned(),
+            ("map_Kd" | "map_Ke" | "map_d" | "map_Bump" | "map_bump" | "bump", _)
+                if !rest.is_empty() =>
+            {
+                rest.to_owned()
+            }
+            _ => continue,
+        };
+        out.push_str(&format!("{keyword} {checked}\n"));
+    }
+    Ok(out)
+}
+
+fn warn(material: &tobj::Material, warnings: &mut Vec<Warning>) {
+    let name = || material.name.clone();
+    let parameter = |key: &str| {
+        material
+            .unknown_param
+            .get(key)
+            .and_then(|v| v.parse::<f64>().ok())
+    };
+    let mut texture = |is_there: bool, what| {
+        if is_there {
+            warnings.push(Warning::Texture {
+                material: name(),
+                what,
+            });
+        }
+    };
+    let white = "color texture is not read; it is drawn white unless the shot gives it a spectrum";
+    let factor = "color texture is not read; it is drawn in its plain color";
+    let is_painted = material.diffuse_texture.is_some();
+    texture(is_painted && material.diffuse.is_none(), white);
+    texture(is_painted && material.diffuse.is_some(), factor);
+    texture(
+        material.unknown_param.contains_key("map_Ke"),
+        "emission texture is not read; it glows evenly, as strong as its Ke line says",
+    );
+    texture(
+        material.normal_texture.is_some() || material.unknown_param.contains_key("norm"),
+        "normal map is not read; its surface is smooth",
+    );
+    texture(
+        material.dissolve_texture.is_some(),
+        "opacity texture is not read; it is opaque",
+    );
+    if !is_painted && material.diffuse.is_none() {
+        warnings.push(Warning::NoColor { material: name() });
+    }
+    let is_clear = material.dissolve.is_some_and(|d| d < 1.0) || parameter("Tr") > Some(0.0);
+    if is_clear {
+        warnings.push(Warning::Alpha {
+            material: name(),
+            mode: "is see-through (`d`, `Tr`)",
+        });
+    }
+    if parameter("Pm") > Some(0.0) {
+        warnings.push(Warning::Metal { material: name() });
+    }
+    for (key, effect) in [
+        ("Pc", "its clear coat's highlight"),
+        ("Ps", "its velvet sheen"),
+    ] {
+        if parameter(key) > Some(0.0) {
+            let extension = format!("`{key}`");
+            warnings.push(Warning::MaterialExtension {
+                material: name(),
+                extension,
+                effect,
+            });
+        }
+    }
+}

@@ -1,0 +1,238 @@
+//! What a model file asks for and the picture will not show.
+
+use std::fmt;
+
+/// Something in a model file that was left out or replaced, and its effect on the picture.
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
+#[non_exhaustive]
+pub enum Warning {
+    /// A texture, of which only the factor is used.
+    Texture {
+        /// The material.
+        material: String,
+        /// Which texture, and its effect.
+        what: &'static str,
+    },
+    /// A material that lets the background through.
+    Alpha {
+        /// The material.
+        material: String,
+        /// How it is see-through in the file.
+        mode: &'static str,
+    },
+    /// A metal.
+    Metal {
+        /// The material.
+        material: String,
+    },
+    /// A material extension.
+    MaterialExtension {
+        /// The material.
+        material: String,
+        /// The extension.
+        extension: String,
+        /// What the picture lacks.
+        effect: &'static str,
+    },
+    /// A color outside the range of reflectance, clamped.
+    Clamped {
+        /// The material.
+        material: String,
+    },
+    /// A material with no color of its own.
+    NoColor {
+        /// The material.
+        material: String,
+    },
+    /// A material that faces refer to and no library defines.
+    UndefinedMaterial {
+        /// The material.
+        material: String,
+    },
+    /// A material library that is not there.
+    MissingLibrary {
+        /// Its file name.
+        name: String,
+    },
+    /// Colors at vertices.
+    VertexColors {
+        /// The mesh.
+        mesh: String,
+    },
+    /// Points and lines.
+    PointsOrLines {
+        /// The mesh.
+        mesh: String,
+    },
+    /// Curves and curved surfaces.
+    Freeform {
+        /// The keyword.
+        keyword: String,
+    },
+    /// Triangles of zero area.
+    Degenerate {
+        /// The mesh.
+        mesh: String,
+        /// How many.
+        count: usize,
+    },
+    /// Normals that point nowhere, replaced by those of the triangles.
+    Normals {
+        /// The mesh.
+        mesh: String,
+    },
+    /// Normals at some corners and none at others.
+    SomeNormals {
+        /// The mesh.
+        mesh: String,
+    },
+    /// A mesh bent by a skeleton.
+    Skin {
+        /// The node.
+        node: String,
+    },
+    /// A mesh with shape keys.
+    ShapeKeys {
+        /// The mesh.
+        mesh: String,
+    },
+    /// Animation clips.
+    Animations {
+        /// How many.
+        count: usize,
+    },
+    /// An instance squashed to nothing.
+    Squashed {
+        /// The node.
+        node: String,
+    },
+    /// A lamp whose light ends at a distance.
+    LampRange {
+        /// The lamp.
+        lamp: String,
+    },
+    /// A node that seems to have been a lamp that did not survive export.
+    LostLamp {
+        /// The node.
+        node: String,
+    },
+    /// Scenes beside the one that is shown.
+    OtherScenes {
+        /// How many.
+        count: usize,
+    },
+    /// An extension that may be ignored and is.
+    Extension {
+        /// Its name.
+        extension: String,
+    },
+}
+
+impl fmt::Display for Warning {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Texture { material, what } => {
+                write!(f, "material `{material}`: its {what}")
+            }
+            Self::Alpha { material, mode } => {
+                write!(
+                    f,
+                    "material `{material}`: {mode}; it is drawn opaque, nothing shows through"
+                )
+            }
+            Self::Metal { material } => write!(
+                f,
+                "material `{material}`: is a metal; it is drawn as matt paint of the same color, without reflections"
+            ),
+            Self::MaterialExtension {
+                material,
+                extension,
+                effect,
+            } => {
+                write!(
+                    f,
+                    "material `{material}`: {extension} is not drawn: {effect}"
+                )
+            }
+            Self::Clamped { material } => write!(
+                f,
+                "material `{material}`: its color lies outside 0 to 1 and is clamped to it"
+            ),
+            Self::NoColor { material } => {
+                write!(
+                    f,
+                    "material `{material}`: no color is given; it is drawn white"
+                )
+            }
+            Self::UndefinedMaterial { material } => write!(
+                f,
+                "material `{material}`: faces use it but no material library defines it; it is drawn white unless the shot gives it a material"
+            ),
+            Self::MissingLibrary { name } => write!(
+                f,
+                "material library `{name}` does not exist; its materials are drawn white unless the shot gives them"
+            ),
+            Self::VertexColors { mesh } => write!(
+                f,
+                "{mesh}: colors at vertices are not read; it has the color of its material alone"
+            ),
+            Self::PointsOrLines { mesh } => {
+                write!(
+                    f,
+                    "{mesh}: points and lines have no surface and are left out"
+                )
+            }
+            Self::Freeform { keyword } => write!(
+                f,
+                "`{keyword}`: curved surfaces are left out; convert them to a mesh before export"
+            ),
+            Self::Degenerate { mesh, count } => {
+                write!(f, "{mesh}: {count} triangles of zero area are left out")
+            }
+            Self::Normals { mesh } => write!(
+                f,
+                "{mesh}: some normals are zero or not finite; the triangles' own are used there"
+            ),
+            Self::SomeNormals { mesh } => write!(
+                f,
+                "{mesh}: some faces have normals and some have none; all are drawn flat"
+            ),
+            Self::Skin { node } => write!(
+                f,
+                "{node}: its skeleton is not applied; it stands in its rest pose"
+            ),
+            Self::ShapeKeys { mesh } => {
+                write!(
+                    f,
+                    "{mesh}: its shape keys are not applied; it has its basic shape"
+                )
+            }
+            Self::Animations { count } => write!(
+                f,
+                "{count} animations are not played; everything stands as the nodes of the file do"
+            ),
+            Self::Squashed { node } => write!(
+                f,
+                "{node}: its scale squashes it to no volume (a scale of 0?); it is left out"
+            ),
+            Self::LampRange { lamp } => write!(
+                f,
+                "lamp `{lamp}`: its range is ignored; its light reaches any distance"
+            ),
+            Self::LostLamp { node } => write!(
+                f,
+                "{node}: holds nothing; if it was an area light, glTF has none: use a glowing plane"
+            ),
+            Self::OtherScenes { count } => write!(
+                f,
+                "{count} other scenes are left out; only the file's default scene is shown"
+            ),
+            Self::Extension { extension } => {
+                write!(
+                    f,
+                    "extension {extension} is ignored; what it adds is not in the picture"
+                )
+            }
+        }
+    }
+}
