@@ -5,3 +5,4 @@ pub mod relativity;
 pub mod scene;
 pub mod shot;
 pub mod spectrum;
+pub mod trace;

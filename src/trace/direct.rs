@@ -1,0 +1,161 @@
+//! Direct light on a surface: lamps on the past light cone of the surface event, in the surface's
+//! rest frame.
+
+use super::stage::RestRay;
+use super::{Lit, Nearest, Tracer};
+use crate::relativity::{Event, light_arriving};
+use crate::scene::{Light, LightShape, Material, SurfacePoint};
+use glam::DVec3;
+use std::f64::consts::PI;
+
+/// Light that arrives at a surface event.
+struct Incoming {
+    /// Unit direction of travel in the lamp's rest frame and in the surface's.
+    in_lamp: DVec3,
+    in_surface: DVec3,
+    /// D from lamp to surface.
+    doppler: f64,
+    /// Length of the light path in the lamp's rest frame; infinite for a sun.
+    distance: f64,
+    /// share / r², or share for a sun.
+    falloff: f64,
+}
+
+/// The surface event and its surroundings, in the surface's rest frame.
+struct Surface {
+    worldline: usize,
+    event: Event,
+    point: SurfacePoint,
+    /// Towards the viewer.
+    view: DVec3,
+}
+
+/// Adds the lamps that light the surface at `nearest`.
+pub(super) fn add_lamps(tracer: &Tracer<'_>, nearest: &Nearest, lit: &mut Vec<Lit>) {
+    let scene = tracer.scene;
+    let instance = &scene.geometry.instances[nearest.hit.instance as usize];
+    let material = &scene.materials[instance.material as usize];
+    if scene.lights.is_empty() || (material.diffuse.is_none() && material.highlight.is_none()) {
+        return;
+    }
+    let surface = surface(tracer, nearest);
+    for (index, light) in scene.lights.iter().enumerate() {
+        if let Some(lamp) = light_on(tracer, &surface, material, light) {
+            lit.push(Lit {
+                light: index as u32,
+                ..lamp
+            });
+        }
+    }
+}
+
+fn surface(tracer: &Tracer<'_>, nearest: &Nearest) -> Surface {
+    let hit = &nearest.hit;
+    let mut point = tracer
+        .scene
+        .geometry
+        .surface_point(hit.instance, hit.triangle, hit.weights);
+    let view = -nearest.direction;
+    if point.flat_normal.dot(view) < 0.0 {
+        point.flat_normal = -point.flat_normal;
+        point.normal = -point.normal;
+        // Seen from behind, the smooth surface is hollow.
+        point.bulge = DVec3::ZERO;
+    }
+    let time = tracer.spacetime.camera_event(nearest.worldline).t - tracer.spacetime.delay(hit.t);
+    Surface {
+        worldline: nearest.worldline,
+        event: Event::new(time, point.position),
+        point,
+        view,
+    }
+}
+
+fn light_on(
+    tracer: &Tracer<'_>,
+    surface: &Surface,
+    material: &Material,
+    light: &Light,
+) -> Option<Lit> {
+    let incoming = incoming(tracer, surface, light)?;
+    let to_lamp = -incoming.in_surface;
+    let cos = surface.point.normal.dot(to_lamp);
+    if cos <= 0.0 || incoming.falloff <= 0.0 {
+        return None;
+    }
+    if tracer.shadows && in_shadow(tracer, surface, light, &incoming) {
+        return None;
+    }
+    let irradiance = incoming.falloff * cos;
+    let highlight = material.highlight.as_ref().map_or(0.0, |highlight| {
+        let n = highlight.exponent;
+        let half = (to_lamp + surface.view).normalize_or(surface.point.normal);
+        let lobe = surface.point.normal.dot(half).max(0.0).powf(n);
+        irradiance * (n + 8.0) / (8.0 * PI) * lobe
+    });
+    let doppler = incoming.doppler;
+    Some(Lit {
+        light: 0,
+        doppler,
+        diffuse: irradiance / PI,
+        highlight,
+    })
+}
+
+/// The lamp's light at the surface event, or None where the lamp is at that very event.
+fn incoming(tracer: &Tracer<'_>, surface: &Surface, light: &Light) -> Option<Incoming> {
+    let spacetime = tracer.spacetime;
+    let (in_lamp, distance, spread) = match light.shape {
+        LightShape::Point { position } | LightShape::Spot { position, .. } => {
+            let event = spacetime
+                .link(light.worldline, surface.worldline)
+                .event(surface.event);
+            let arrival = light_arriving(event, position)?;
+            (
+                arrival.direction,
+                arrival.distance,
+                arrival.distance * arrival.distance,
+            )
+        }
+        LightShape::Sun { direction } => (direction, f64::INFINITY, 1.0),
+    };
+    let seen = spacetime
+        .link(surface.worldline, light.worldline)
+        .light(in_lamp);
+    Some(Incoming {
+        in_lamp,
+        in_surface: seen.direction,
+        doppler: spacetime.received_ratio(light.worldline, surface.worldline, &seen),
+        distance,
+        falloff: light.shape.share(in_lamp) / spread,
+    })
+}
+
+/// Whether a body of any worldline stands on the light path between surface and lamp. The path is
+/// one null line: in each rest frame it starts at the surface event, and its length there is that
+/// in the lamp's frame times the ratio of frequencies.
+fn in_shadow(tracer: &Tracer<'_>, surface: &Surface, light: &Light, incoming: &Incoming) -> bool {
+    let spacetime = tracer.spacetime;
+    // From the smooth surface, or facets of a round body would shade each other where lamps rise.
+    let off_surface = surface.point.bulge + surface.point.flat_normal * surface.point.clearance;
+    let start = Event::new(surface.event.t, surface.event.x + off_surface);
+    tracer.stage.worldlines().any(|worldline| {
+        let seen = if worldline == surface.worldline {
+            crate::relativity::Light {
+                direction: incoming.in_surface,
+                frequency_ratio: incoming.doppler,
+            }
+        } else {
+            spacetime
+                .link(worldline, light.worldline)
+                .light(incoming.in_lamp)
+        };
+        let origin = spacetime.link(worldline, surface.worldline).event(start).x;
+        let ray = RestRay {
+            origin,
+            direction: -seen.direction,
+        };
+        let reach = incoming.distance * spacetime.path_ratio(seen.frequency_ratio);
+        tracer.stage.blocks(worldline, &ray, reach)
+    })
+}
