@@ -1,0 +1,192 @@
+//! What a shader is made of: the curves of materials and lamps, baked, and their tables.
+
+use super::curve::Curve;
+use super::table::XyzTable;
+use super::thermal::Glow;
+use crate::plan::Called;
+use crate::scene::{Material, Scene, Thermal};
+use crate::shot::{Accuracy, Spectra};
+use crate::spectrum::{Sensor, Spectrum};
+use std::sync::Arc;
+
+/// A material's curves.
+pub(super) struct Surface {
+    pub(super) diffuse: Option<Reflecting>,
+    pub(super) highlight: Option<Reflecting>,
+    pub(super) emission: Option<Sight>,
+    pub(super) glow: Option<Glow>,
+}
+
+impl Surface {
+    /// Diffuse and highlight.
+    pub(super) fn reflecting(&self) -> impl Iterator<Item = &Option<Reflecting>> {
+        [&self.diffuse, &self.highlight].into_iter()
+    }
+}
+
+/// A reflectance, and XYZ of its product with each emitter for lamps that move with the surface.
+pub(super) struct Reflecting {
+    pub(super) reflectance: Curve,
+    /// By emitter; empty where nothing is tabulated.
+    pub(super) tables: Vec<XyzTable>,
+}
+
+/// A curve that is seen as it is.
+pub(super) struct Sight {
+    pub(super) curve: Curve,
+    pub(super) table: XyzTable,
+}
+
+/// What a [`Shader`](super::Shader) is made for, beside the scene.
+pub struct Settings<'a> {
+    /// Effects of the image.
+    pub called: &'a Called,
+    /// How spectra are held.
+    pub accuracy: &'a Accuracy,
+    /// The sensor's band, nm.
+    pub window_nm: [f64; 2],
+    /// Largest |ln D| between a surface and the camera.
+    pub reach: f64,
+    /// Largest |ln D| between a lamp and a surface.
+    pub lamp_reach: f64,
+}
+
+/// For each light its emitter and scale, and the emitters' spectra.
+pub(super) fn distinct_emitters(scene: &Scene) -> (Vec<(usize, f64)>, Vec<Arc<Spectrum>>) {
+    let mut spectra: Vec<Arc<Spectrum>> = Vec::new();
+    let lamps = scene
+        .lights
+        .iter()
+        .map(|light| {
+            let known = spectra.iter().position(|s| *s == light.spectrum);
+            let emitter = known.unwrap_or_else(|| {
+                spectra.push(Arc::clone(&light.spectrum));
+                spectra.len() - 1
+            });
+            (emitter, light.scale)
+        })
+        .collect();
+    (lamps, spectra)
+}
+
+/// Makes curves and tables.
+pub(super) struct Bake<'a> {
+    pub(super) sensor: &'a Sensor,
+    pub(super) settings: &'a Settings<'a>,
+    /// Whether tables stand in for sums over wavelengths.
+    pub(super) tabulated: bool,
+}
+
+/// Most pairs of material and emitter that are tabulated, some 100 kB each; with more, every lamp
+/// is read wavelength by wavelength.
+pub(super) const MOST_TABLES: usize = 1000;
+
+impl Bake<'_> {
+    pub(super) fn curve(&self, spectrum: &Arc<Spectrum>, weight: f64, limit: f64) -> Curve {
+        let baked = self.settings.accuracy.spectra == Spectra::Grid;
+        let reach = self.settings.reach + self.settings.lamp_reach;
+        let reach = if self.settings.called.doppler {
+            reach
+        } else {
+            0.0
+        };
+        Curve::new(
+            spectrum,
+            weight,
+            limit,
+            self.sensor.axis(),
+            baked.then_some(reach),
+        )
+    }
+
+    pub(super) fn surface(&self, material: &Material, emitters: &[Sight]) -> Surface {
+        let reflecting = |weight: f64, spectrum: &Arc<Spectrum>| {
+            let reflectance = self.curve(spectrum, weight, 1.0);
+            let tabulated = emitters.iter().filter(|_| self.tabulated);
+            let tables = tabulated
+                .map(|e| self.product(&reflectance, &e.curve))
+                .collect();
+            Reflecting {
+                reflectance,
+                tables,
+            }
+        };
+        let thermal = material
+            .thermal
+            .as_ref()
+            .filter(|_| self.settings.called.thermal);
+        Surface {
+            diffuse: material
+                .diffuse
+                .as_ref()
+                .map(|r| reflecting(r.weight, &r.spectrum)),
+            highlight: material
+                .highlight
+                .as_ref()
+                .map(|h| reflecting(h.reflectance.weight, &h.reflectance.spectrum)),
+            emission: material.emission.as_ref().map(|e| {
+                self.sight(
+                    self.curve(&e.spectrum, e.weight, f64::INFINITY),
+                    self.settings.reach,
+                )
+            }),
+            glow: thermal.map(|t| self.glow(t)),
+        }
+    }
+
+    fn glow(&self, thermal: &Thermal) -> Glow {
+        // Read at exact wavelengths, so not baked.
+        let emissivity = Curve::new(&thermal.emissivity, 1.0, 1.0, self.sensor.axis(), None);
+        let glow = Glow::new(thermal, emissivity);
+        if !self.tabulated {
+            return glow;
+        }
+        // Planck's curve is nowhere constant: as far as D reaches.
+        let everywhere = Some([f64::MIN_POSITIVE, f64::MAX]);
+        glow.tabulated(self.sensor.axis(), |read| {
+            self.table(self.settings.reach, everywhere, read)
+        })
+    }
+
+    pub(super) fn emitter(&self, spectrum: &Arc<Spectrum>) -> Sight {
+        let reach = self.settings.reach + self.settings.lamp_reach;
+        self.sight(self.curve(spectrum, 1.0, f64::INFINITY), reach)
+    }
+
+    pub(super) fn sight(&self, curve: Curve, reach: f64) -> Sight {
+        let support = curve.support_nm();
+        let table = self.table(reach, support, |d, out| curve.read(d, out));
+        Sight { curve, table }
+    }
+
+    /// XYZ of reflectance times emitter under one shift.
+    fn product(&self, reflectance: &Curve, emitter: &Curve) -> XyzTable {
+        let support = match (reflectance.support_nm(), emitter.support_nm()) {
+            (Some([a, b]), Some([c, d])) => Some([a.min(c), b.max(d)]),
+            (one, other) => one.or(other),
+        };
+        let mut light = vec![0.0; self.sensor.axis().count()];
+        self.table(self.settings.reach, support, |d, out| {
+            let factor = emitter.read(d, &mut light) * reflectance.read(d, out);
+            for (out, light) in out.iter_mut().zip(&light) {
+                *out *= light;
+            }
+            factor
+        })
+    }
+
+    /// A table over |ln D| up to `reach`, or at D = 1 alone where curves do not shift.
+    fn table(
+        &self,
+        reach: f64,
+        support_nm: Option<[f64; 2]>,
+        read: impl FnMut(f64, &mut [f32]) -> f64,
+    ) -> XyzTable {
+        let reach = if self.settings.called.doppler {
+            reach
+        } else {
+            0.0
+        };
+        XyzTable::new(self.sensor, reach, support_nm, read)
+    }
+}

@@ -1,0 +1,19 @@
+//! Shade trees to light: spectral radiance for whoever wants the curve, XYZ for the film.
+//!
+//! In: [`ShadeTrees`](crate::trace::ShadeTrees) and the spectra of the scene. Out: what the camera
+//! receives along each ray. [`received`] is the only place where a Doppler factor meets a spectrum.
+//!
+//! XYZ takes a short cut where one shift serves light and material together, a lamp that moves
+//! with the body it lights: their product's XYZ is then a function of ln D alone, tabulated when
+//! the image is prepared. Elsewhere, with `accuracy.spectra = "spline"` and for the curve itself,
+//! each spectrum is read at all wavelengths under its own shift.
+
+mod bake;
+mod curve;
+pub mod received;
+mod shader;
+mod table;
+mod thermal;
+
+pub use bake::Settings;
+pub use shader::{ShadeScratch, Shader};

@@ -1,0 +1,149 @@
+//! Thermal light. A black body at T seen under D is a black body at D·T with the power of D that
+//! beaming leaves over, D⁵ B(Dλ, T) = B(λ, DT), so one curve serves every temperature.
+
+use super::curve::Curve;
+use super::received::Received;
+use super::table::XyzTable;
+use crate::scene::{self, Thermal};
+use crate::spectrum::{LogAxis, Sensor, catmull_rom, planck};
+
+/// XYZ of black bodies by temperature: ln X, ln Y, ln Z over ln T.
+pub(super) struct BlackBodies {
+    entries: Vec<[f64; 3]>,
+}
+
+/// Below this a body has no visible light that f64 can hold beside its own scale (ln B < −745 up
+/// to 830 nm); the coldest entry.
+const COLDEST_K: f64 = 25.0;
+/// From here on every XYZ is proportional to T (Rayleigh–Jeans) within 1e-6.
+const HOTTEST_K: f64 = 1e11;
+/// Entries per unit of ln T. ln XYZ has curvature x = hc/(λkT) there: the cubic's error is below
+/// 1e-6 at 1000 K, 2e-5 at 100 K.
+const PER_UNIT: f64 = 100.0;
+
+impl BlackBodies {
+    pub(super) fn new(sensor: &Sensor) -> Self {
+        let wavelengths = sensor.axis().wavelengths_nm();
+        let count = ((HOTTEST_K / COLDEST_K).ln() * PER_UNIT).ceil() as usize + 4;
+        let entries = (0..count)
+            .map(|i| {
+                let kelvin = COLDEST_K * ((i as f64 - 1.0) / PER_UNIT).exp();
+                let curve: Vec<f64> = wavelengths
+                    .iter()
+                    .map(|&nm| planck::radiance(nm, kelvin))
+                    .collect();
+                sensor.xyz(&curve).map(|v| v.max(f64::MIN_POSITIVE).ln())
+            })
+            .collect();
+        Self { entries }
+    }
+
+    /// XYZ of a black body, cd/m².
+    #[inline(always)]
+    pub(super) fn xyz(&self, kelvin: f64) -> [f64; 3] {
+        if kelvin <= COLDEST_K {
+            return [0.0; 3];
+        }
+        let place = (kelvin.min(HOTTEST_K) / COLDEST_K).ln() * PER_UNIT;
+        let first = (place as usize).min(self.entries.len() - 4);
+        let taps = catmull_rom(place - first as f64);
+        let beyond = (kelvin / HOTTEST_K).max(1.0);
+        [0, 1, 2].map(|c| {
+            let ln: f64 = taps
+                .iter()
+                .zip(&self.entries[first..])
+                .map(|(tap, entry)| tap * entry[c])
+                .sum();
+            ln.exp() * beyond
+        })
+    }
+}
+
+/// A material's thermal light.
+pub(super) struct Glow {
+    temperature_k: f64,
+    emissivity: Curve,
+    /// 1, or what brings the peak to the strength asked for.
+    scale: f64,
+    /// XYZ by ln D, for an emissivity that varies over wavelengths.
+    table: Option<XyzTable>,
+}
+
+impl Glow {
+    pub(super) fn new(thermal: &Thermal, emissivity: Curve) -> Self {
+        let scale = match thermal.curve {
+            scene::Curve::Absolute => 1.0,
+            scene::Curve::Peak(strength) => {
+                // So cold that f64 knows no light of it: then there is none.
+                let peak = planck::peak_radiance(thermal.temperature_k);
+                if peak > 0.0 {
+                    (strength / peak).min(f64::MAX)
+                } else {
+                    0.0
+                }
+            }
+        };
+        Self {
+            temperature_k: thermal.temperature_k,
+            emissivity,
+            scale,
+            table: None,
+        }
+    }
+
+    /// Has the light of an emissivity that varies tabulated by `table`, which is given what to
+    /// read over ln D.
+    pub(super) fn tabulated(
+        mut self,
+        axis: LogAxis,
+        table: impl FnOnce(&dyn Fn(f64, &mut [f32]) -> f64) -> XyzTable,
+    ) -> Self {
+        if self.emissivity.constant().is_none() {
+            self.table = Some(table(&|d, out| self.read(d, axis, out)));
+        }
+        self
+    }
+
+    /// Writes emissivity times Planck's curve at D·λ, over the largest value, which is returned.
+    fn read(&self, shift: f64, axis: LogAxis, out: &mut [f32]) -> f64 {
+        let value = |j: usize| {
+            let nm = shift * axis.wavelength_nm(j as f64);
+            self.emissivity.at(nm) * planck::radiance(nm, self.temperature_k)
+        };
+        super::curve::write_shape(value, out)
+    }
+
+    /// XYZ under the Doppler factor `d`.
+    pub(super) fn xyz(
+        &self,
+        d: f64,
+        received: Received,
+        sensor: &Sensor,
+        bodies: &BlackBodies,
+        scratch: &mut [f32],
+    ) -> [f64; 3] {
+        let shift = received.shift(d);
+        if let Some(emissivity) = self.emissivity.constant() {
+            let factor = (emissivity * self.scale * received.black_body(d)).min(f64::MAX);
+            return bodies.xyz(shift * self.temperature_k).map(|v| v * factor);
+        }
+        let factor = (self.scale * received.radiance(d)).min(f64::MAX);
+        if let Some(table) = &self.table {
+            return table.at(shift.ln()).map(|v| v * factor);
+        }
+        let peak = self.read(shift, sensor.axis(), scratch);
+        sensor.xyz_of_shape(scratch).map(|v| v * peak * factor)
+    }
+
+    /// Adds the spectral radiance under the Doppler factor `d` at the axis' wavelengths.
+    pub(super) fn add(&self, d: f64, received: Received, axis: LogAxis, out: &mut [f64]) {
+        let shift = received.shift(d);
+        let factor = (self.scale * received.black_body(d)).min(f64::MAX);
+        // A black body at T seen under D is one at D·T: no power of D is left to overflow.
+        let kelvin = shift * self.temperature_k;
+        for (j, out) in out.iter_mut().enumerate() {
+            let nm = axis.wavelength_nm(j as f64);
+            *out += factor * self.emissivity.at(shift * nm) * planck::radiance(nm, kelvin);
+        }
+    }
+}

@@ -1,0 +1,145 @@
+//! The short cut agrees with the long way: XYZ by tables and kernels against the sum over the
+//! spectral radiance of the same ray.
+#![expect(
+    clippy::unwrap_used,
+    reason = "a test that cannot be set up has failed"
+)]
+
+use restframe::plan;
+use restframe::scene::{Library, Scene};
+use restframe::shade::{Settings, ShadeScratch, Shader};
+use restframe::shot::{self, Shot, Spectra};
+use restframe::trace::{BodyHit, Lit, Node, Root, ShadeTrees};
+use std::path::Path;
+
+/// One material of every kind, three lamps; the wall moves, so every effect is called for.
+const SHOT: &str = r#"
+[worldline.fast]
+velocity = { gamma = 20.0, direction = [1, 0, 0] }
+[[model]]
+file = "quad.obj"
+worldline = "fast"
+material = "paint"
+[material.paint]
+diffuse = { weight = 0.8, spectrum = "narrow" }
+highlight = { weight = 0.2, spectrum = "leaf", exponent = 10 }
+emission = { scale = 0.01, spectrum = { gaussian = { center = 589, width = 5 } } }
+thermal = { temperature = 2500, emissivity = EMISSIVITY }
+[spectrum.narrow]
+gaussian = { center = 571.3, width = 9 }
+[spectrum.leaf]
+points = [[400, 0.05], [550, 0.2], [680, 0.05], [720, 0.6], [900, 0.6]]
+[[light]]
+kind = "sun"
+direction = [0, 0, -1]
+intensity = 1e5
+spectrum = "D65"
+[[light]]
+kind = "sun"
+direction = [0, 0, -1]
+scale = 100.0
+spectrum = { blackbody = 3000 }
+[[light]]
+kind = "sun"
+direction = [0, 0, -1]
+intensity = 2e4
+spectrum = 1.0
+[background]
+worldline = "fast"
+spectrum = "leaf"
+[camera]
+"#;
+
+/// Measured 1.5e-6: f32 sums of 84 terms, and tables that are cubic between entries.
+const TOLERANCE: f64 = 5e-6;
+
+fn shot(emissivity: &str) -> (Shot, Scene) {
+    let folder = &Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("shading {emissivity:?}"));
+    std::fs::create_dir_all(folder).unwrap();
+    let quad = "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nf 1 2 3 4\n";
+    std::fs::write(folder.join("quad.obj"), quad).unwrap();
+    let text = SHOT.replace("EMISSIVITY", emissivity);
+    let shot = shot::parse(&text, &folder.join("shading.toml")).unwrap();
+    let library = Library::load(&shot).unwrap();
+    let scene = Scene::resolve(&shot, &library, 1, None).unwrap();
+    (shot, scene)
+}
+
+fn worst(shot: &Shot, scene: &Scene) -> f64 {
+    let called = plan::called(shot, 1, &shot.effects).unwrap();
+    let settings = Settings {
+        called: &called,
+        accuracy: &shot.accuracy,
+        window_nm: shot.sensor.window,
+        reach: 175.0,
+        lamp_reach: 350.0,
+    };
+    let shader = Shader::new(scene, &settings);
+    let mut scratch = ShadeScratch::default();
+    let mut worst = 0f64;
+    // Everything that visible light can become, then as far as f64 goes.
+    let near = (0..600).map(|step| 0.05 * 1.01f64.powi(step));
+    let far = (-75..75).map(|exponent| 10f64.powi(exponent));
+    for doppler in near.chain(far) {
+        for lamp_doppler in [1.0, 0.7, 1.0 / doppler] {
+            let trees = trees(doppler, lamp_doppler);
+            for root in [Root::Surface(0), Root::Sky(doppler)] {
+                let short = shader.xyz(&trees, root, &mut scratch);
+                let long = shader.xyz_of(&shader.radiance(&trees, root));
+                let size = long.iter().fold(f64::MIN_POSITIVE, |m, v| m.max(*v));
+                assert!(short.iter().chain(&long).all(|v| !v.is_nan()), "{doppler}");
+                if size > f64::from(f32::MAX) * f64::from(f32::MAX) {
+                    continue; // saturated either way
+                }
+                for (short, long) in short.iter().zip(long) {
+                    worst = worst.max((short - long).abs() / size);
+                }
+            }
+        }
+    }
+    worst
+}
+
+fn trees(doppler: f64, lamp_doppler: f64) -> ShadeTrees {
+    let lit = |light, share| Lit {
+        light,
+        doppler: lamp_doppler,
+        diffuse: share,
+        highlight: 0.3,
+    };
+    let hit = BodyHit {
+        t: 1.0,
+        instance: 0,
+        triangle: 0,
+        weights: [1.0, 0.0, 0.0],
+    };
+    ShadeTrees {
+        roots: vec![Root::Surface(0)],
+        nodes: vec![Node {
+            material: 0,
+            doppler,
+            s: 1.0,
+            hit,
+            lamps: 3,
+            first_lamp: 0,
+        }],
+        lit: vec![lit(0, 0.1), lit(1, 0.2), lit(2, 0.05)],
+    }
+}
+
+#[test]
+fn tables_and_kernels_agree_with_the_sum_over_wavelengths() {
+    for emissivity in ["1.0", "\"leaf\""] {
+        let (shot, scene) = shot(emissivity);
+        let worst = worst(&shot, &scene);
+        assert!(worst < TOLERANCE, "{emissivity}: {worst}");
+    }
+}
+
+#[test]
+fn splines_read_wavelength_by_wavelength_agree_too() {
+    let (mut shot, scene) = shot("0.5");
+    shot.accuracy.spectra = Spectra::Spline;
+    let worst = worst(&shot, &scene);
+    assert!(worst < TOLERANCE, "{worst}");
+}
