@@ -1,0 +1,55 @@
+//! `restframe check`.
+
+use super::render::warn;
+use super::{Failed, MISTAKE, mistaken, print, print_json};
+use crate::queue::Prepared;
+use serde_json::json;
+use std::path::PathBuf;
+
+/// Reads every shot and all it names, and resolves each frame.
+pub(super) fn run(shots: &[PathBuf], as_json: bool) -> Result<(), Failed> {
+    let mut wrong = false;
+    let mut reports = Vec::new();
+    for path in shots {
+        match Prepared::read(path) {
+            Ok(prepared) if as_json => reports.push(sound(&prepared)),
+            Ok(prepared) => {
+                warn(&prepared);
+                let frames = prepared.shot.shot.frames;
+                let s = if frames == 1 { "" } else { "s" };
+                print(&format!(
+                    "{}: {frames} frame{s}, no mistakes",
+                    path.display()
+                ))?;
+            }
+            Err(mistakes) => {
+                wrong = true;
+                if as_json {
+                    let report = json!({"shot": path, "ok": false, "mistakes": mistakes.json()});
+                    reports.push(report);
+                } else {
+                    mistaken(&mistakes);
+                }
+            }
+        }
+    }
+    if as_json {
+        print_json(&json!({ "shots": reports }))?;
+    }
+    if wrong { Err(Failed(MISTAKE)) } else { Ok(()) }
+}
+
+fn sound(prepared: &Prepared) -> serde_json::Value {
+    let warnings: Vec<String> = prepared
+        .library
+        .warnings(&prepared.shot)
+        .map(|(file, warning)| format!("{}: {warning}", file.display()))
+        .collect();
+    json!({
+        "shot": prepared.shot.path,
+        "ok": true,
+        "frames": prepared.shot.shot.frames,
+        "mistakes": [],
+        "warnings": warnings,
+    })
+}

@@ -1,0 +1,179 @@
+//! The command line: arguments in, messages and an exit code out.
+//!
+//! Results go to standard output, progress and diagnostics to standard error. Exit status: 0
+//! done, 1 something failed while rendering, 2 a mistake in the shot or the call.
+
+mod check;
+mod probe;
+mod render;
+
+use crate::queue::{FrameList, Mode};
+use crate::shot::{self, Mistakes};
+use clap::{Args, Parser, Subcommand};
+use std::io::{self, IsTerminal, Write};
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+/// Renders scenes in which things move at nearly the speed of light
+#[derive(Debug, Parser)]
+#[command(version, about, propagate_version = true, max_term_width = 100)]
+struct Arguments {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    /// Renders shots to images, DIR/STEM/STEM.0001.png and so on
+    Render(RenderArguments),
+    /// Reads shots and everything they name, and renders nothing
+    Check {
+        /// Shot files
+        #[arg(required = true, value_name = "SHOT")]
+        shots: Vec<PathBuf>,
+        /// Report as JSON on standard output
+        #[arg(long)]
+        json: bool,
+    },
+    /// Tells what the centre of one pixel sees: event, Doppler factor, spectrum, colour
+    Probe(ProbeArguments),
+    /// Prints the JSON schema of the shot format, for editors
+    Schema,
+}
+
+#[derive(Debug, Args)]
+struct RenderArguments {
+    /// Shot files, rendered one after the other
+    #[arg(required = true, value_name = "SHOT")]
+    shots: Vec<PathBuf>,
+    /// Folder that gets a folder of images for each shot
+    #[arg(long, value_name = "DIR", default_value = "renders")]
+    out: PathBuf,
+    /// Frames, such as 1-10,20 or 1-100:5 (":" steps, "100-" goes to the end); default all
+    #[arg(long, value_name = "LIST", allow_hyphen_values = true)]
+    frames: Option<FrameList>,
+    /// Factor on the size of the images
+    #[arg(long, value_name = "FACTOR", default_value = "1", value_parser = scale, allow_negative_numbers = true)]
+    scale: f64,
+    /// Samples a pixel, in place of the shot's
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=65536), allow_negative_numbers = true)]
+    samples: Option<u32>,
+    /// Threads; 0 takes every processor. The images are the same for any number
+    #[arg(long, value_name = "N", default_value = "0", value_parser = clap::value_parser!(u16).range(0..=1024), allow_negative_numbers = true)]
+    threads: u16,
+    /// How progress is shown: auto is a bar on a terminal and lines elsewhere
+    #[arg(long, value_name = "MODE", value_enum, default_value = "auto")]
+    progress: ProgressMode,
+}
+
+#[derive(Debug, Clone, Copy, clap::ValueEnum)]
+enum ProgressMode {
+    Auto,
+    Bar,
+    Plain,
+    None,
+}
+
+impl From<ProgressMode> for Mode {
+    fn from(mode: ProgressMode) -> Self {
+        match mode {
+            ProgressMode::Auto => Self::Auto,
+            ProgressMode::Bar => Self::Bar,
+            ProgressMode::Plain => Self::Plain,
+            ProgressMode::None => Self::None,
+        }
+    }
+}
+
+#[derive(Debug, Args)]
+struct ProbeArguments {
+    /// Shot file
+    shot: PathBuf,
+    /// Number of the frame
+    #[arg(long, value_name = "N", default_value = "1")]
+    frame: u32,
+    /// The pixel; 0 0 is the upper left one
+    #[arg(long, num_args = 2, value_names = ["X", "Y"], required = true)]
+    pixel: Vec<u32>,
+    /// Answer as JSON
+    #[arg(long)]
+    json: bool,
+}
+
+/// A factor on the size: above 0, finite.
+fn scale(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(factor) if factor > 0.0 && factor.is_finite() => Ok(factor),
+        _ => Err("a scale is a number above 0, such as 0.5".to_owned()),
+    }
+}
+
+/// Exit status of a mistake in the shot or the call.
+const MISTAKE: u8 = 2;
+/// Exit status of something that failed while rendering.
+const FAILURE: u8 = 1;
+
+/// Runs the command line of this process.
+pub fn run() -> ExitCode {
+    let done = match Arguments::parse().command {
+        Command::Render(arguments) => render::run(&arguments),
+        Command::Check { shots, json } => check::run(&shots, json),
+        Command::Probe(arguments) => probe::run(&arguments),
+        Command::Schema => schema(),
+    };
+    match done {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(Failed(status)) => ExitCode::from(status),
+    }
+}
+
+/// The exit status of a command that has already said what is wrong.
+struct Failed(u8);
+
+fn schema() -> Result<(), Failed> {
+    print_json(&shot::schema())
+}
+
+fn print_json(value: &impl serde::Serialize) -> Result<(), Failed> {
+    let text = serde_json::to_string_pretty(value).map_err(|error| failed(&error.to_string()))?;
+    print(&text)
+}
+
+/// Prints a line on standard output. A reader who has gone away is no failure.
+fn print(text: &str) -> Result<(), Failed> {
+    match writeln!(io::stdout().lock(), "{text}") {
+        Err(error) if error.kind() != io::ErrorKind::BrokenPipe => {
+            Err(failed(&format!("standard output: {error}")))
+        }
+        _ => Ok(()),
+    }
+}
+
+/// Says what failed while rendering.
+fn failed(message: &str) -> Failed {
+    say(&format!("error: {message}"));
+    Failed(FAILURE)
+}
+
+/// Says what is wrong with the call.
+fn misused(message: &str) -> Failed {
+    say(&format!("error: {message}"));
+    Failed(MISTAKE)
+}
+
+/// Shows mistakes of a shot.
+fn mistaken(mistakes: &Mistakes) -> Failed {
+    say(mistakes.report(color_on_stderr()).trim_end());
+    Failed(MISTAKE)
+}
+
+/// A line on standard error; trouble with it is passed over.
+fn say(line: &str) {
+    let _unheard = writeln!(io::stderr().lock(), "{line}");
+}
+
+fn color_on_stderr() -> bool {
+    let set = |name: &str| std::env::var_os(name).is_some_and(|value| !value.is_empty());
+    let dumb = std::env::var_os("TERM").is_some_and(|term| term == "dumb");
+    io::stderr().is_terminal() && !set("NO_COLOR") && !dumb
+}

@@ -1,0 +1,7 @@
+//! The `restframe` command.
+
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    restframe::cli::run()
+}

@@ -1,0 +1,16 @@
+//! The queue: which frames are rendered, how far they have come, and how they reach the disk.
+//!
+//! In: shot files ([`Prepared`]) and the frame list of the command line ([`FrameList`]). Out: files
+//! that are either whole or not there ([`write_atomically`]), and news of the work on standard
+//! error ([`Progress`]). Standard output is never written to.
+
+mod frames;
+mod picture;
+mod progress;
+mod shots;
+mod write;
+
+pub use frames::{FrameList, FrameListError, Resolved};
+pub use progress::{Mode, Progress};
+pub use shots::{Exposing, Prepared, RenderError, Request, options, render_shot};
+pub use write::write_atomically;

@@ -1,0 +1,76 @@
+//! A film to the files of one frame, as bytes.
+
+use crate::film::{self, Development, EncodeError, Film, Metadata, develop};
+use crate::scene::Scene;
+use crate::shot::{Format, Shot};
+use crate::spectrum::color_space::{RGB_FROM_XYZ, encode};
+
+/// The files of a frame: extension and content, and how many values had to be clamped.
+pub(super) struct Pictures {
+    /// Extension and bytes, in the order of the shot's formats.
+    pub files: Vec<(&'static str, Vec<u8>)>,
+    /// Values beyond what a file can hold.
+    pub saturated: u64,
+}
+
+/// Develops a film and encodes it in the shot's formats.
+///
+/// # Errors
+/// When an encoder refuses.
+pub(super) fn pictures(
+    shot: &Shot,
+    frame: u32,
+    scene: &Scene,
+    film: &Film,
+    exposure_stops: f64,
+    samples: u32,
+) -> Result<Pictures, EncodeError> {
+    let development = Development {
+        rgb_from_xyz: RGB_FROM_XYZ,
+        exposure_stops,
+        encode,
+    };
+    let developed = develop(film, &development);
+    let metadata = metadata(shot, frame, scene, exposure_stops, samples);
+    let (width, height) = (film.width, film.height);
+    let mut files = Vec::new();
+    for format in &shot.output.formats {
+        files.push(match format {
+            Format::Png => {
+                let rgb = film::png::to_rgb8(&developed, encode);
+                ("png", film::png::encode(width, height, &rgb, &metadata)?)
+            }
+            Format::Exr => (
+                "exr",
+                film::exr::encode(width, height, &developed, &film.layers, &metadata)?,
+            ),
+        });
+    }
+    Ok(Pictures {
+        files,
+        saturated: developed.saturated,
+    })
+}
+
+fn metadata(shot: &Shot, frame: u32, scene: &Scene, exposure_stops: f64, samples: u32) -> Metadata {
+    let worldline = &scene.worldlines[scene.camera.worldline];
+    let camera = worldline.celerity;
+    Metadata {
+        software: Some(film::SOFTWARE.to_owned()),
+        comments: shot.shot.title.clone(),
+        frames_per_second: Some(shot.shot.fps),
+        camera_from_world: scene
+            .camera
+            .camera_from_lab(worldline)
+            .map(|matrix| matrix.to_cols_array()),
+        exposure_stops: Some(exposure_stops),
+        samples_per_pixel: Some(samples),
+        frame: Some(frame),
+        beta: Some(camera.beta().to_array()),
+        lorentz_factor: Some(camera.lorentz_factor()),
+        time_s: Some(shot.shot.time.at(frame, shot.shot.frames)),
+        worldlines: scene.worldline_names.clone(),
+        shot: Some(shot.places.text().to_owned()),
+        ..Metadata::default()
+    }
+}

@@ -1,0 +1,56 @@
+//! Exposure metered on a small render of frame 1.
+
+use super::{Options, render};
+use crate::film::auto_exposure;
+use crate::plan::MotionError;
+use crate::scene::{Library, Scene};
+use crate::shot::{LARGEST_SIDE, Mistakes, Shot};
+use crate::trace::Stage;
+
+/// What metering found, and what it built on the way: frame 1, for whoever renders it next.
+pub struct Metered {
+    /// Exposure in stops; None where all is black.
+    pub stops: Option<f64>,
+    /// Frame 1.
+    pub scene: Scene,
+    /// Its bodies.
+    pub stage: Stage,
+}
+
+/// Exposure metered on a small render of frame 1, whatever frames are asked for.
+///
+/// # Errors
+/// Mistakes of frame 1.
+pub fn metered_exposure(shot: &Shot, library: &Library) -> Result<Metered, Mistakes> {
+    let scene = Scene::resolve(shot, library, 1, None)?;
+    let stage = Stage::build(&scene.geometry, None);
+    let [width, height] = shot.image.size.map(f64::from);
+    let rows = (METER_WIDTH * height / width)
+        .round()
+        .clamp(1.0, LARGEST_SIDE.into());
+    let options = Options {
+        width: METER_WIDTH as u32,
+        height: rows as u32,
+        samples: 1,
+        layers: Vec::new(),
+    };
+    let film = render(shot, 1, &scene, &stage, &options, &|_| ())
+        .map_err(|error| motion_mistake(shot, &error))?;
+    Ok(Metered {
+        stops: auto_exposure(&film),
+        scene,
+        stage,
+    })
+}
+
+/// Width of the render that exposure is metered on, pixels.
+const METER_WIDTH: f64 = 160.0;
+
+/// A velocity that fails between keys, as a mistake of the shot.
+pub fn motion_mistake(shot: &Shot, error: &MotionError) -> Mistakes {
+    let key = format!("worldline.{}.velocity", error.worldline);
+    Mistakes::new(
+        &shot.places,
+        vec![shot.places.mistake(&key, error.to_string(), None)],
+    )
+}

@@ -1,0 +1,212 @@
+//! The renderer on one page: plan, trace, shade, film.
+
+use crate::film::Film;
+use crate::plan::{self, Called};
+use crate::scene::Scene;
+use crate::shade::{Settings, Shader};
+use crate::shot::{Effects, Layer, Shot, Splice, Switch};
+use crate::trace::{Node, Samples, Spacetime, Stage, Tracer};
+use glam::DVec3;
+use rayon::prelude::*;
+use std::ops::Range;
+
+mod meter;
+mod paint;
+
+pub use meter::{Metered, metered_exposure, motion_mistake};
+
+use paint::{BAND, Painter, Row, empty_film, split_bands};
+
+/// Size and quality of an image, as asked for on the command line or by the shot.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Options {
+    /// Pixels in a row.
+    pub width: u32,
+    /// Rows.
+    pub height: u32,
+    /// Samples a pixel, at least 1.
+    pub samples: u32,
+    /// Layers beside the light.
+    pub layers: Vec<Layer>,
+}
+
+/// One image under one set of effects: everything a ray needs.
+pub struct View<'a> {
+    scene: &'a Scene,
+    stage: &'a Stage,
+    /// What is simulated.
+    pub called: Called,
+    spacetime: Spacetime,
+    shader: Shader,
+}
+
+impl<'a> View<'a> {
+    /// Prepares the image `frame` of a shot under the author's `switches`.
+    ///
+    /// # Errors
+    /// Where a worldline has no velocity in this frame.
+    pub fn new(
+        shot: &Shot,
+        frame: u32,
+        switches: &Effects,
+        scene: &'a Scene,
+        stage: &'a Stage,
+    ) -> Result<Self, plan::MotionError> {
+        let called = plan::called(shot, frame, switches)?;
+        // Where nothing moves the links are translations, which cost nothing; light still takes
+        // its time to the camera.
+        let spacetime = Spacetime::new(scene, switches.geometry == Switch::Auto);
+        let settings = Settings {
+            called: &called,
+            accuracy: &shot.accuracy,
+            window_nm: shot.sensor.window,
+            reach: largest_rapidity(scene, scene.camera.worldline, 0..scene.worldlines.len()),
+            lamp_reach: stage
+                .worldlines()
+                .map(|body| largest_rapidity(scene, body, scene.lights.iter().map(|l| l.worldline)))
+                .fold(0.0, f64::max),
+        };
+        let shader = Shader::new(scene, &settings);
+        Ok(Self {
+            scene,
+            stage,
+            called,
+            spacetime,
+            shader,
+        })
+    }
+
+    /// The shader of this image.
+    pub fn shader(&self) -> &Shader {
+        &self.shader
+    }
+
+    /// How its worldlines stand to each other.
+    pub fn spacetime(&self) -> &Spacetime {
+        &self.spacetime
+    }
+
+    /// What rays are traced through.
+    pub fn tracer(&self) -> Tracer<'_> {
+        Tracer {
+            scene: self.scene,
+            stage: self.stage,
+            spacetime: &self.spacetime,
+            shadows: self.called.shadows,
+        }
+    }
+}
+
+/// Renders one image. `done` is told of finished rays, from any thread.
+///
+/// # Errors
+/// Where a worldline has no velocity in this frame.
+pub fn render(
+    shot: &Shot,
+    frame: u32,
+    scene: &Scene,
+    stage: &Stage,
+    options: &Options,
+    done: &(dyn Fn(u64) + Sync),
+) -> Result<Film, plan::MotionError> {
+    let view = |effects: &Effects| View::new(shot, frame, effects, scene, stage);
+    let whole = view(&shot.effects)?;
+    let splices = shot
+        .splice
+        .iter()
+        .map(|splice| {
+            Ok((
+                rows(splice, options.height),
+                view(&spliced(&shot.effects, splice))?,
+            ))
+        })
+        .collect::<Result<Vec<_>, plan::MotionError>>()?;
+    let view_of = |row: u32| {
+        splices
+            .iter()
+            .rev()
+            .find(|(rows, _)| rows.contains(&row))
+            .map_or(&whole, |(_, view)| view)
+    };
+    let samples = Samples::new(options.samples, shot.image.filter);
+    let bands = (options.height as usize).div_ceil(BAND);
+    let mut film = empty_film(options);
+    let mut parts = split_bands(&mut film, bands);
+    parts
+        .par_iter_mut()
+        .enumerate()
+        .for_each_init(Painter::default, |painter, (band, part)| {
+            let first = (band * BAND) as u32;
+            let last = (first + BAND as u32).min(options.height);
+            for row in first..last {
+                let place = Row {
+                    number: row,
+                    in_band: (row - first) as usize,
+                    options,
+                };
+                painter.paint(view_of(row), &samples, &place, part);
+                done(u64::from(options.width) * u64::from(options.samples));
+            }
+        });
+    Ok(film)
+}
+
+/// Effects of a splice: the shot's, but for what it changes.
+pub fn spliced(effects: &Effects, splice: &Splice) -> Effects {
+    let over = &splice.effects;
+    Effects {
+        geometry: over.geometry.unwrap_or(effects.geometry),
+        doppler: over.doppler.unwrap_or(effects.doppler),
+        beaming: over.beaming.unwrap_or(effects.beaming),
+        thermal: over.thermal.unwrap_or(effects.thermal),
+        shadows: over.shadows.unwrap_or(effects.shadows),
+        bounces: effects.bounces,
+    }
+}
+
+/// The rows that a splice covers: those whose centres lie in it.
+pub fn rows(splice: &Splice, height: u32) -> Range<u32> {
+    let row = |fraction: f64| (fraction * f64::from(height) - 0.5).ceil().max(0.0) as u32;
+    row(splice.rows[0])..row(splice.rows[1]).min(height)
+}
+
+/// Largest |ln D| between the worldline `from` and any of `to`, with a margin for rounding.
+fn largest_rapidity(scene: &Scene, from: usize, to: impl Iterator<Item = usize>) -> f64 {
+    let own = scene.worldlines[from].celerity;
+    let rapidity = |other: usize| {
+        scene.worldlines[other]
+            .celerity
+            .seen_from(own)
+            .magnitude()
+            .asinh()
+    };
+    to.map(rapidity).fold(0.0, f64::max) * (1.0 + 1e-9) + 1e-9
+}
+
+/// The light path from a surface to the camera, in the lab.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LabPath {
+    /// The emission event.
+    pub emission: crate::relativity::Event,
+    /// Length, metres.
+    pub distance: f64,
+}
+
+impl LabPath {
+    /// The path to `node` of a camera ray of unit `direction` (camera's rest frame).
+    pub fn new(view: &View<'_>, node: &Node, direction: DVec3) -> Self {
+        const LAB: usize = 0;
+        let spacetime = &view.spacetime;
+        let camera = spacetime.camera_event(LAB);
+        // As light that travels from the surface to the camera: no cancellation far away.
+        let light = spacetime
+            .link(LAB, view.scene.camera.worldline)
+            .light(-direction);
+        let distance = node.s * spacetime.path_ratio(light.frequency_ratio);
+        let emission = crate::relativity::Event::new(
+            camera.t - spacetime.delay(distance),
+            camera.x - light.direction * distance,
+        );
+        Self { emission, distance }
+    }
+}

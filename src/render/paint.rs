@@ -1,0 +1,176 @@
+//! Pixels: their rays traced, shaded and averaged, a band of rows at a time.
+
+use super::{LabPath, Options, View};
+use crate::film::{Film, Layers};
+use crate::shade::ShadeScratch;
+use crate::shot::Layer;
+use crate::trace::{Root, Samples, Scratch, ShadeTrees};
+use glam::DVec3;
+use std::ops::Range;
+
+/// Rows of pixels that one thread takes at a time.
+pub(super) const BAND: usize = 8;
+/// Rays that are boosted and traced together: their scratch memory stays in the second cache.
+const RAYS: usize = 2048;
+
+/// What one band of rows writes to.
+pub(super) struct Part<'a> {
+    xyz: &'a mut [[f32; 3]],
+    layers: Vec<(Layer, &'a mut [f32])>,
+}
+
+pub(super) fn empty_film(options: &Options) -> Film {
+    let pixels = options.width as usize * options.height as usize;
+    let layer = |which: Layer, background: f32| {
+        options
+            .layers
+            .contains(&which)
+            .then(|| vec![background; pixels])
+    };
+    Film {
+        width: options.width,
+        height: options.height,
+        xyz: vec![[0.0; 3]; pixels],
+        layers: Layers {
+            doppler: layer(Layer::Doppler, 0.0),
+            distance: layer(Layer::Distance, 0.0),
+            emission_time: layer(Layer::EmissionTime, 0.0),
+            worldline: layer(Layer::Worldline, -1.0),
+        },
+    }
+}
+
+pub(super) fn split_bands(film: &mut Film, bands: usize) -> Vec<Part<'_>> {
+    let size = film.width as usize * BAND;
+    let mut parts: Vec<Part<'_>> = film
+        .xyz
+        .chunks_mut(size)
+        .map(|xyz| Part {
+            xyz,
+            layers: Vec::new(),
+        })
+        .collect();
+    debug_assert_eq!(parts.len(), bands);
+    let layers = &mut film.layers;
+    for (which, layer) in [
+        (Layer::Doppler, &mut layers.doppler),
+        (Layer::Distance, &mut layers.distance),
+        (Layer::EmissionTime, &mut layers.emission_time),
+        (Layer::Worldline, &mut layers.worldline),
+    ] {
+        for (part, values) in parts
+            .iter_mut()
+            .zip(layer.iter_mut().flat_map(|l| l.chunks_mut(size)))
+        {
+            part.layers.push((which, values));
+        }
+    }
+    parts
+}
+
+/// A row of pixels.
+pub(super) struct Row<'a> {
+    pub(super) number: u32,
+    pub(super) in_band: usize,
+    pub(super) options: &'a Options,
+}
+
+/// One thread's memory.
+#[derive(Default)]
+pub(super) struct Painter {
+    directions: Vec<DVec3>,
+    scratch: Scratch,
+    trees: ShadeTrees,
+    shading: ShadeScratch,
+}
+
+impl Painter {
+    /// Renders a row, some pixels at a time.
+    pub(super) fn paint(
+        &mut self,
+        view: &View<'_>,
+        samples: &Samples,
+        row: &Row<'_>,
+        part: &mut Part<'_>,
+    ) {
+        let width = row.options.width;
+        let step = (RAYS as u32 / samples.count()).max(1);
+        for first in (0..width).step_by(step as usize) {
+            let pixels = first..(first + step).min(width);
+            self.trace(view, samples, row, pixels.clone());
+            for (index, x) in pixels.enumerate() {
+                let rays = index * samples.count() as usize..(index + 1) * samples.count() as usize;
+                let at = row.in_band * width as usize + x as usize;
+                part.xyz[at] = self.mean_xyz(view, rays.clone());
+                if !part.layers.is_empty() {
+                    let central = rays.start + central_sample(samples, x, row.number);
+                    self.write_layers(view, central, at, part);
+                }
+            }
+        }
+    }
+
+    fn trace(&mut self, view: &View<'_>, samples: &Samples, row: &Row<'_>, pixels: Range<u32>) {
+        let [width, height] = [row.options.width, row.options.height].map(f64::from);
+        self.directions.clear();
+        for x in pixels {
+            for index in 0..samples.count() {
+                let [dx, dy] = samples.position(x, row.number, index);
+                let point = [
+                    (f64::from(x) + dx) / width,
+                    (f64::from(row.number) + dy) / height,
+                ];
+                self.directions.push(view.scene.camera.looks_along(point));
+            }
+        }
+        self.trees.clear();
+        view.tracer()
+            .trace(&self.directions, &mut self.scratch, &mut self.trees);
+    }
+
+    fn mean_xyz(&mut self, view: &View<'_>, rays: Range<usize>) -> [f32; 3] {
+        let count = rays.len() as f64;
+        let mut sum = [0.0; 3];
+        for ray in rays {
+            let xyz = view
+                .shader
+                .xyz(&self.trees, self.trees.roots[ray], &mut self.shading);
+            for (sum, value) in sum.iter_mut().zip(xyz) {
+                *sum += value;
+            }
+        }
+        // What f32 cannot hold is counted when the film is developed.
+        sum.map(|v| (v / count) as f32)
+    }
+
+    fn write_layers(&self, view: &View<'_>, ray: usize, at: usize, part: &mut Part<'_>) {
+        let Root::Surface(index) = self.trees.roots[ray] else {
+            return;
+        };
+        let node = &self.trees.nodes[index as usize];
+        let path = LabPath::new(view, node, self.directions[ray]);
+        for (layer, values) in &mut part.layers {
+            values[at] = match layer {
+                // On a covered pixel it is above 0, also where f32 is at its end.
+                Layer::Doppler => node.doppler.max(f64::from(f32::MIN_POSITIVE)),
+                Layer::Distance => path.distance,
+                Layer::EmissionTime => path.emission.t,
+                Layer::Worldline => {
+                    f64::from(view.scene.geometry.instances[node.hit.instance as usize].worldline)
+                }
+            }
+            .clamp(f64::from(f32::MIN), f64::from(f32::MAX)) as f32;
+        }
+    }
+}
+
+/// The sample nearest to the pixel's centre, whose surface the layers describe.
+fn central_sample(samples: &Samples, x: u32, y: u32) -> usize {
+    let off = |index: u32| {
+        let [dx, dy] = samples.position(x, y, index);
+        (dx - 0.5).powi(2) + (dy - 0.5).powi(2)
+    };
+    (0..samples.count())
+        .min_by(|&a, &b| off(a).total_cmp(&off(b)))
+        .unwrap_or(0) as usize
+}

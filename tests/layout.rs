@@ -1,0 +1,335 @@
+//! The house rules of `src/`: imports point up the list of rooms, every file opens with `//!`, and
+//! files stay short.
+//!
+//! Imports are read from the tokens of the source, so that comments, doc links and strings do not
+//! count, and every path that leaves its room does, in a `use` or not.
+
+use proc_macro2::{Delimiter, TokenStream, TokenTree};
+use std::path::Path;
+
+/// The rooms, each importing only from those above it. Those on one line do not know each other,
+/// so that no circle of imports can leave a room.
+const ROOMS: &[&[&str]] = &[
+    &["relativity", "spectrum", "film"],
+    &["shot"],
+    &["plan"],
+    &["scene"],
+    &["trace"],
+    &["shade"],
+    &["render"],
+    &["probe"],
+    &["queue"],
+    &["cli"],
+    &["main"],
+];
+
+/// Rooms that import nothing of ours, wherever they stand in the list.
+const LEAVES: &[&str] = &["relativity", "spectrum", "film"];
+
+const MAX_LINES: usize = 400;
+
+/// Files that may be longer, each with its reason.
+const LONG: &[(&str, &str)] = &[(
+    "spectrum/tables.rs",
+    "tables of numbers, written by scripts/make-tables",
+)];
+
+/// Everything in the sources that breaks a rule. Paths are relative to `src`, with `/`.
+fn faults(files: &[(String, String)]) -> Vec<String> {
+    let mut faults = Vec::new();
+    for (path, text) in files {
+        if !text.starts_with("//!") {
+            faults.push(format!(
+                "{path}: does not open with //!, a line that says what it is"
+            ));
+        }
+        let lines = text.lines().count();
+        if lines > MAX_LINES && !LONG.iter().any(|(long, _)| long == path) {
+            faults.push(format!(
+                "{path}: {lines} lines, more than {MAX_LINES}; split it"
+            ));
+        }
+        match text.parse::<TokenStream>() {
+            Ok(tokens) => faults.extend(bad_imports(path, tokens)),
+            Err(error) => faults.push(format!("{path}: {error}")),
+        }
+    }
+    for (path, _) in LONG {
+        let long = |(p, text): &(String, String)| p == path && text.lines().count() > MAX_LINES;
+        if !files.iter().any(long) {
+            faults.push(format!(
+                "{path}: no longer a long file; take it off the list"
+            ));
+        }
+    }
+    faults
+}
+
+fn bad_imports(path: &str, tokens: TokenStream) -> Vec<String> {
+    let module = module_of(path);
+    // The map of the crate declares the rooms and imports nothing.
+    let room = module.first().map_or("lib", String::as_str);
+    let rank = rank_of(room);
+    if rank.is_none() && room != "lib" {
+        return vec![format!(
+            "{path}: {room} is no room; give it its place in tests/layout.rs"
+        )];
+    }
+    let mut imports = Vec::new();
+    collect(tokens, &module, &mut imports);
+    imports.sort();
+    imports.dedup();
+    let fault = |import: String| {
+        if import == room {
+            return None;
+        }
+        let why = match rank_of(&import) {
+            None => "which is no room",
+            Some(_) if LEAVES.contains(&room) => "but must import nothing of ours",
+            Some(_) if room == "lib" => "but is only the map",
+            other if other >= rank => "which does not stand above it",
+            Some(_) => return None,
+        };
+        Some(format!("{path}: {room} imports {import}, {why}"))
+    };
+    imports.into_iter().filter_map(fault).collect()
+}
+
+fn rank_of(room: &str) -> Option<usize> {
+    ROOMS.iter().position(|line| line.contains(&room))
+}
+
+/// `scene/model/mod.rs` is `scene`, `model`; `lib.rs` is the root.
+fn module_of(path: &str) -> Vec<String> {
+    let path = path.trim_end_matches(".rs").trim_end_matches("/mod");
+    if path == "lib" {
+        Vec::new()
+    } else {
+        path.split('/').map(str::to_owned).collect()
+    }
+}
+
+/// The rooms that paths in `tokens`, in the given module, name.
+fn collect(tokens: TokenStream, module: &[String], rooms: &mut Vec<String>) {
+    let tokens: Vec<TokenTree> = tokens.into_iter().collect();
+    let word = |i: usize| match tokens.get(i) {
+        Some(TokenTree::Ident(word)) => Some(word.to_string()),
+        _ => None,
+    };
+    let mut i = 0;
+    while i < tokens.len() {
+        match (&tokens[i], word(i).as_deref()) {
+            (TokenTree::Group(group), _) => collect(group.stream(), module, rooms),
+            (_, Some("mod")) => {
+                if let (Some(name), Some(TokenTree::Group(body))) = (word(i + 1), tokens.get(i + 2))
+                {
+                    let inner = [module, &[name]].concat();
+                    collect(body.stream(), &inner, rooms);
+                    i += 2;
+                }
+            }
+            (_, Some("crate" | "restframe")) if !follows_colons(&tokens, i) => {
+                follow(&tokens[i + 1..], &[], rooms);
+            }
+            (_, Some("super")) if !follows_colons(&tokens, i) => {
+                follow(
+                    &tokens[i + 1..],
+                    module.split_last().map_or(&[], |(_, up)| up),
+                    rooms,
+                );
+            }
+            _ => {}
+        }
+        i += 1;
+    }
+}
+
+fn is_colon(token: Option<&TokenTree>) -> bool {
+    matches!(token, Some(TokenTree::Punct(mark)) if mark.as_char() == ':')
+}
+
+/// Whether `::` stands before token `i`, which is then no beginning of a path.
+fn follows_colons(tokens: &[TokenTree], i: usize) -> bool {
+    i >= 2 && is_colon(tokens.get(i - 1)) && is_colon(tokens.get(i - 2))
+}
+
+/// Follows the rest of a path, which begins with `::` and stands in the module `at`, until the
+/// rooms are known that it leads to: through braces, and further up through `super`.
+fn follow(rest: &[TokenTree], at: &[String], rooms: &mut Vec<String>) {
+    if !(is_colon(rest.first()) && is_colon(rest.get(1))) {
+        return;
+    }
+    match rest.get(2) {
+        Some(TokenTree::Group(group)) if group.delimiter() == Delimiter::Brace => {
+            let tokens: Vec<TokenTree> = group.stream().into_iter().collect();
+            let comma = |t: &TokenTree| matches!(t, TokenTree::Punct(p) if p.as_char() == ',');
+            tokens.split(comma).for_each(|part| step(part, at, rooms));
+        }
+        Some(_) => step(&rest[2..], at, rooms),
+        None => {}
+    }
+}
+
+fn step(path: &[TokenTree], at: &[String], rooms: &mut Vec<String>) {
+    let Some(TokenTree::Ident(word)) = path.first() else {
+        return;
+    };
+    match (word.to_string().as_str(), at.first()) {
+        ("super", Some(_)) => follow(&path[1..], &at[..at.len() - 1], rooms),
+        (_, Some(_)) | ("self", None) => {}
+        (room, None) => rooms.push(room.to_owned()),
+    }
+}
+
+/// All sources below a folder.
+fn sources(folder: &Path, root: &Path, files: &mut Vec<(String, String)>) {
+    for entry in std::fs::read_dir(folder).expect("src can be read") {
+        let path = entry.expect("its entries can be read").path();
+        if path.is_dir() {
+            sources(&path, root, files);
+        } else if path.extension().is_some_and(|extension| extension == "rs") {
+            let name = path.strip_prefix(root).expect("below src");
+            let name = name.to_string_lossy().replace('\\', "/");
+            files.push((name, std::fs::read_to_string(&path).expect("UTF-8")));
+        }
+    }
+}
+
+#[test]
+fn the_sources_keep_the_rules() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+    let mut files = Vec::new();
+    sources(&root, &root, &mut files);
+    files.sort();
+    assert!(
+        files.len() > 20,
+        "only {} files found in {}",
+        files.len(),
+        root.display()
+    );
+    let faults = faults(&files);
+    assert!(faults.is_empty(), "\n{}", faults.join("\n"));
+}
+
+/// What is wrong with one file, beside the list of long files.
+fn faults_of(path: &str, text: &str) -> Vec<String> {
+    let mut faults = faults(&[(path.to_owned(), text.to_owned())]);
+    faults.retain(|fault| !fault.contains("take it off the list"));
+    faults
+}
+
+#[test]
+fn an_import_from_further_down_is_found_however_it_is_written() {
+    for text in [
+        "use crate::queue::FrameList;",
+        "use crate::queue;",
+        "use crate::{plan, queue::{FrameList, Mode}};",
+        "use super::queue::FrameList;",
+        "use {std::fs, super::{plan, queue}};",
+        "pub use crate::queue as q;",
+        "fn f(_: &crate::queue::FrameList) {}",
+        "fn f() { if true { crate::queue::options(); } }",
+        "mod tests { use super::super::queue::Mode; }",
+        "mod tests { use super::super::{plan, queue}; }",
+        "fn f() { println!(\"{}\", crate::queue::N) }",
+        "#[cfg(test)] use crate::queue::Mode;",
+        "impl From<f64> for crate::queue::Mode {}",
+        "use restframe::queue;",
+    ] {
+        let found = faults_of("render.rs", &format!("//! A step.\n{text}\n"));
+        assert_eq!(
+            found,
+            ["render.rs: render imports queue, which does not stand above it"],
+            "{text}"
+        );
+    }
+    let deep = faults_of(
+        "scene/model/obj.rs",
+        "//! A file.\nuse super::super::super::trace::Stage;",
+    );
+    assert_eq!(
+        deep,
+        ["scene/model/obj.rs: scene imports trace, which does not stand above it"]
+    );
+}
+
+#[test]
+fn what_is_no_import_from_another_room_is_none() {
+    for text in [
+        "use crate::scene::Scene;\nuse super::{plan, scene::Scene};",
+        "/// See [`FrameList`](crate::queue::FrameList).\nfn f() {}",
+        "// use crate::queue::Mode;\n/* crate::queue */",
+        "const TEXT: &str = \"crate::queue::Mode\"; const RAW: &str = r#\"super::queue\"#;",
+        "pub(crate) fn f() {} pub(super) struct S; pub(in crate::render) struct T;",
+        "mod tests { use super::*; use super::queue; }",
+        "use std::queue; use other::crate_like::queue;",
+        "use crate::render::View;",
+    ] {
+        assert_eq!(
+            faults_of("render.rs", &format!("//! A step.\n{text}\n")),
+            [""; 0],
+            "{text}"
+        );
+    }
+    let inside = "//! A file.\nuse super::super::files::Files;\nuse super::{queue, trace};";
+    assert_eq!(faults_of("scene/model/obj/library.rs", inside), [""; 0]);
+}
+
+#[test]
+fn a_circle_between_two_rooms_is_found() {
+    let file = |path: &str, text: &str| (path.to_owned(), format!("//! A room.\n{text}"));
+    let circle = [
+        file("trace/mod.rs", "use crate::shade::Shader;"),
+        file("shade/mod.rs", "use crate::trace::Stage;"),
+    ];
+    assert!(
+        faults(&circle).contains(
+            &"trace/mod.rs: trace imports shade, which does not stand above it".to_owned()
+        )
+    );
+}
+
+#[test]
+fn a_leaf_that_imports_and_two_rooms_of_one_line_are_found() {
+    for import in ["shot", "spectrum", "film"] {
+        let text = format!("//! A leaf.\nuse crate::{import}::X;");
+        let expected = format!(
+            "relativity/boost.rs: relativity imports {import}, but must import nothing of ours"
+        );
+        assert_eq!(faults_of("relativity/boost.rs", &text), [expected]);
+    }
+}
+
+#[test]
+fn a_room_without_a_place_is_found() {
+    let expected = "attic/mod.rs: attic is no room; give it its place in tests/layout.rs";
+    assert_eq!(faults_of("attic/mod.rs", "//! Old things."), [expected]);
+    let imported = faults_of("shot/mod.rs", "//! A room.\nuse crate::Thing;");
+    assert_eq!(
+        imported,
+        ["shot/mod.rs: shot imports Thing, which is no room"]
+    );
+}
+
+#[test]
+fn a_file_without_its_first_line_and_one_too_long_are_found() {
+    let bare = faults_of("shot/track.rs", "// A comment.\n//! Late.\n");
+    assert!(bare[0].contains("does not open with //!"), "{bare:?}");
+    let long = format!("//! A file.\n{}", "\n".repeat(MAX_LINES));
+    assert_eq!(
+        faults_of("shot/track.rs", &long),
+        ["shot/track.rs: 401 lines, more than 400; split it"]
+    );
+    let fits = format!("//! A file.\n{}", "\n".repeat(MAX_LINES - 1));
+    assert_eq!(faults_of("shot/track.rs", &fits), [""; 0]);
+    assert!(faults_of("spectrum/tables.rs", &long).is_empty());
+}
+
+#[test]
+fn an_exception_that_nothing_needs_any_more_is_found() {
+    let short = [("spectrum/tables.rs".to_owned(), "//! Tables.\n".to_owned())];
+    assert_eq!(
+        faults(&short),
+        ["spectrum/tables.rs: no longer a long file; take it off the list"]
+    );
+}
