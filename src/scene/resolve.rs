@@ -52,14 +52,7 @@ impl Scene {
         frame: u32,
         earlier: Option<&Scene>,
     ) -> Result<Self, Mistakes> {
-        Resolver {
-            shot,
-            library,
-            frame,
-            mistakes: Vec::new(),
-            numbers: HashMap::new(),
-        }
-        .run(|placing, worldlines, materials| match earlier {
+        Resolver::new(shot, library, frame).run(|placing, worldlines, materials| match earlier {
             Some(earlier) if earlier.geometry.placing == placing => Arc::clone(&earlier.geometry),
             _ => Arc::new(Geometry::new(library, placing, worldlines, materials)),
         })
@@ -70,15 +63,9 @@ impl Scene {
     /// # Errors
     /// As [`Scene::resolve`].
     pub fn check(shot: &Shot, library: &Library, frame: u32) -> Result<(), Mistakes> {
-        Resolver {
-            shot,
-            library,
-            frame,
-            mistakes: Vec::new(),
-            numbers: HashMap::new(),
-        }
-        .run(|_, _, _| Arc::default())
-        .map(|_| ())
+        Resolver::new(shot, library, frame)
+            .run(|_, _, _| Arc::default())
+            .map(|_| ())
     }
 }
 
@@ -90,6 +77,18 @@ pub(super) struct Resolver<'a> {
     /// Numbers of the materials made so far, by the file's own material, if there is one, and
     /// name.
     pub(super) numbers: HashMap<(Option<*const ModelMaterial>, String), u32>,
+}
+
+impl<'a> Resolver<'a> {
+    fn new(shot: &'a Shot, library: &'a Library, frame: u32) -> Self {
+        Self {
+            shot,
+            library,
+            frame,
+            mistakes: Vec::new(),
+            numbers: HashMap::new(),
+        }
+    }
 }
 
 impl Resolver<'_> {
