@@ -1,0 +1,45 @@
+//! The hard cases: everything that must stay numerically stable, each with an exact result or an
+//! invariant, under the row's number (A1, B4, …). A row's name is `a1_…`, and what it checks is a
+//! line of the report card in docs/hard-cases.md, which `scripts/hard-cases` prints.
+
+#![expect(
+    clippy::unwrap_used,
+    clippy::panic,
+    reason = "a case that cannot be set up has failed"
+)]
+
+#[macro_use]
+#[path = "hard_cases/card.rs"]
+mod card;
+
+#[path = "hard_cases/boosts.rs"]
+mod boosts;
+#[path = "hard_cases/doppler.rs"]
+mod doppler;
+#[path = "hard_cases/geometry.rs"]
+mod geometry;
+#[path = "hard_cases/lamps.rs"]
+mod lamps;
+#[path = "hard_cases/light.rs"]
+mod light;
+#[path = "hard_cases/pipeline.rs"]
+mod pipeline;
+#[path = "hard_cases/scene.rs"]
+mod scene;
+
+/// Every case, in the order of the card.
+fn sections() -> Vec<(&'static str, &'static [card::Case])> {
+    vec![
+        ("A. Boosts", boosts::CASES),
+        ("B. Doppler factor and aberration", doppler::CASES),
+        ("C. Radiometry and spectra", light::CASES),
+        ("D. Geometry and visibility", geometry::CASES),
+        ("E. Lamps, mirrors, glass", lamps::CASES),
+        ("G. The program as a whole", pipeline::CASES),
+    ]
+}
+
+#[test]
+fn the_report_card_is_current() {
+    card::compare(&sections());
+}

@@ -1,0 +1,3 @@
+//! B. Doppler factor and aberration.
+
+cases! {}

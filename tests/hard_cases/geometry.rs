@@ -1,0 +1,3 @@
+//! D. Geometry and visibility.
+
+cases! {}

@@ -1,0 +1,3 @@
+//! E. Lamps, mirrors, glass.
+
+cases! {}

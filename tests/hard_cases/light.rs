@@ -1,0 +1,3 @@
+//! C. Radiometry and spectra.
+
+cases! {}

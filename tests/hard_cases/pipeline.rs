@@ -1,0 +1,3 @@
+//! G. The program as a whole.
+
+cases! {}
