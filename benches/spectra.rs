@@ -5,7 +5,7 @@ mod shell;
 use divan::{Bencher, black_box};
 use restframe::plan;
 use restframe::shade::{Settings, ShadeScratch, Shader};
-use restframe::trace::{BodyHit, Lit, Node, Root, ShadeTrees};
+use restframe::trace::{BodyHit, Lit, Node, Root, Seen, ShadeTrees, Surface};
 use shell::shell;
 
 fn main() {
@@ -34,12 +34,21 @@ fn shade(bencher: Bencher<'_, '_>, spectra: &str, wavelengths: u32, lamp_doppler
         weights: [1.0, 0.0, 0.0],
     };
     let node = Node {
-        material: 0,
+        branch: None,
         doppler: 1.2,
-        s: 1.0,
-        hit,
-        lamps: 1,
-        first_lamp: 0,
+        seen: Seen::Surface(Surface {
+            material: 0,
+            s: 1.0,
+            time: 0.0,
+            hit,
+            lamps: 1,
+            first_lamp: 0,
+        }),
+    };
+    let root = Root {
+        first: 0,
+        count: 1,
+        cut: 0.0,
     };
     let lit = Lit {
         light: 0,
@@ -48,12 +57,12 @@ fn shade(bencher: Bencher<'_, '_>, spectra: &str, wavelengths: u32, lamp_doppler
         highlight: 0.01,
     };
     let trees = ShadeTrees {
-        roots: vec![Root::Surface(0)],
+        roots: vec![root],
         nodes: vec![node],
         lit: vec![lit],
     };
     let mut scratch = ShadeScratch::default();
-    bencher.bench_local(|| shader.xyz(black_box(&trees), Root::Surface(0), &mut scratch));
+    bencher.bench_local(|| shader.xyz(black_box(&trees), root, &mut scratch));
 }
 
 #[divan::bench(args = WAVELENGTHS)]

@@ -4,7 +4,7 @@ use crate::render::{LabPath, View};
 use crate::scene::Scene;
 use crate::shot::Shot;
 use crate::spectrum::color_space::RGB_FROM_XYZ;
-use crate::trace::{Node, Root, Scratch, ShadeTrees};
+use crate::trace::{Node, Scratch, Seen, ShadeTrees, Surface};
 use glam::DVec3;
 use serde::Serialize;
 
@@ -70,13 +70,17 @@ pub fn probe(
     view.tracer()
         .trace(&[direction], &mut Scratch::default(), &mut trees);
     let root = trees.roots[0];
-    let radiance = view.shader().radiance(&trees, root);
+    let radiance = view.shader().radiance(&trees, root).total();
     let xyz = view.shader().xyz_of(&radiance);
     let gain = exposure.exp2() / 100.0;
     let rgb = RGB_FROM_XYZ.map(|row| row.iter().zip(xyz).map(|(m, v)| m * v).sum::<f64>() * gain);
-    let hit = match root {
-        Root::Sky(_) => None,
-        Root::Surface(index) => Some(hit(view, scene, &trees.nodes[index as usize], direction)),
+    let hit = match trees.nodes_of(root).first() {
+        Some(Node {
+            seen: Seen::Surface(surface),
+            doppler,
+            ..
+        }) => Some(hit(view, scene, surface, *doppler, direction)),
+        _ => None,
     };
     Probe {
         frame,
@@ -89,19 +93,26 @@ pub fn probe(
     }
 }
 
-fn hit(view: &View<'_>, scene: &Scene, node: &Node, direction: DVec3) -> ProbeHit {
-    let instance = &scene.geometry.instances[node.hit.instance as usize];
+fn hit(
+    view: &View<'_>,
+    scene: &Scene,
+    surface: &Surface,
+    doppler: f64,
+    direction: DVec3,
+) -> ProbeHit {
+    let instance = &scene.geometry.instances[surface.hit.instance as usize];
     let worldline = instance.worldline as usize;
-    let point =
-        scene
-            .geometry
-            .surface_point(node.hit.instance, node.hit.triangle, node.hit.weights);
+    let point = scene.geometry.surface_point(
+        surface.hit.instance,
+        surface.hit.triangle,
+        surface.hit.weights,
+    );
     let arriving = view
         .spacetime()
         .link(worldline, scene.camera.worldline)
         .light(-direction);
     let towards = arriving.direction.dot(point.flat_normal).signum();
-    let path = LabPath::new(view, node, direction);
+    let path = LabPath::new(view, surface, direction);
     ProbeHit {
         model: scene.model_names[instance.model as usize].clone(),
         material: scene.materials[instance.material as usize].name.clone(),
@@ -112,6 +123,6 @@ fn hit(view: &View<'_>, scene: &Scene, node: &Node, direction: DVec3) -> ProbeHi
         },
         distance: path.distance,
         normal: (point.normal * towards).to_array(),
-        doppler: node.doppler,
+        doppler,
     }
 }

@@ -9,7 +9,7 @@ use restframe::plan;
 use restframe::scene::{Library, Scene};
 use restframe::shade::{Settings, ShadeScratch, Shader};
 use restframe::shot::{self, Shot, Spectra};
-use restframe::trace::{BodyHit, Lit, Node, Root, ShadeTrees};
+use restframe::trace::{BodyHit, Lit, Node, Root, Seen, ShadeTrees, Surface};
 use std::path::Path;
 
 /// One material of every kind, three lamps; the wall moves, so every effect is called for.
@@ -83,9 +83,9 @@ fn worst(shot: &Shot, scene: &Scene) -> f64 {
     for doppler in near.chain(far) {
         for lamp_doppler in [1.0, 0.7, 1.0 / doppler] {
             let trees = trees(doppler, lamp_doppler);
-            for root in [Root::Surface(0), Root::Sky(doppler)] {
+            for &root in &trees.roots {
                 let short = shader.xyz(&trees, root, &mut scratch);
-                let long = shader.xyz_of(&shader.radiance(&trees, root));
+                let long = shader.xyz_of(&shader.radiance(&trees, root).total());
                 let size = long.iter().fold(f64::MIN_POSITIVE, |m, v| m.max(*v));
                 assert!(short.iter().chain(&long).all(|v| !v.is_nan()), "{doppler}");
                 if size > f64::from(f32::MAX) * f64::from(f32::MAX) {
@@ -113,16 +113,30 @@ fn trees(doppler: f64, lamp_doppler: f64) -> ShadeTrees {
         triangle: 0,
         weights: [1.0, 0.0, 0.0],
     };
+    let surface = Surface {
+        material: 0,
+        s: 1.0,
+        time: 0.0,
+        hit,
+        lamps: 3,
+        first_lamp: 0,
+    };
+    let node = |seen| Node {
+        branch: None,
+        doppler,
+        seen,
+    };
+    let root = |first| Root {
+        first,
+        count: 1,
+        cut: 0.0,
+    };
     ShadeTrees {
-        roots: vec![Root::Surface(0)],
-        nodes: vec![Node {
-            material: 0,
-            doppler,
-            s: 1.0,
-            hit,
-            lamps: 3,
-            first_lamp: 0,
-        }],
+        roots: vec![root(0), root(1)],
+        nodes: vec![
+            node(Seen::Surface(surface)),
+            node(Seen::Sky(glam::DVec3::NEG_Z)),
+        ],
         lit: vec![lit(0, 0.1), lit(1, 0.2), lit(2, 0.05)],
     }
 }

@@ -17,6 +17,10 @@ pub struct Called {
     pub thermal: bool,
     /// Shadow rays.
     pub shadows: bool,
+    /// Ideal reflection.
+    pub mirror: bool,
+    /// Ideal refraction.
+    pub refraction: bool,
     /// One sentence an effect.
     pub because: Vec<Reason>,
 }
@@ -65,6 +69,23 @@ pub fn called(shot: &Shot, frame: u32, switches: &Effects) -> Result<Called, Mot
         lit.as_deref(),
         "there is no lamp",
     );
+    let followed = switches.bounces > 0;
+    let mirrors = weighted(shot, frame, |m| m.mirror.as_ref().map(|m| &m.weight));
+    let mirrors = mirrors.map(|name| format!("material \"{name}\" is a mirror"));
+    let mirror = call(
+        "mirror",
+        followed,
+        mirrors.as_deref(),
+        "no material is a mirror",
+    );
+    let glass = weighted(shot, frame, |m| m.refraction.as_ref().map(|r| &r.weight));
+    let glass = glass.map(|name| format!("material \"{name}\" lets light through"));
+    let refraction = call(
+        "refraction",
+        followed,
+        glass.as_deref(),
+        "no material is glass",
+    );
     let beaming = if beamed {
         switches.beaming
     } else {
@@ -76,6 +97,8 @@ pub fn called(shot: &Shot, frame: u32, switches: &Effects) -> Result<Called, Mot
         beaming,
         thermal,
         shadows,
+        mirror,
+        refraction,
         because,
     })
 }
@@ -143,6 +166,25 @@ fn hot_material(shot: &Shot, frame: u32) -> Option<String> {
     shot.material.iter().find_map(|(name, material)| {
         temperature(material).map(|t| format!("material \"{name}\" is at {t} K"))
     })
+}
+
+/// The first material whose term has a weight in this frame; without one of its own it is 1.
+fn weighted(
+    shot: &Shot,
+    frame: u32,
+    weight: impl Fn(&Material) -> Option<&Option<Track<f64>>>,
+) -> Option<&str> {
+    let has_weight = |material: &Material| {
+        weight(material).is_some_and(|weight| {
+            weight
+                .as_ref()
+                .is_none_or(|track| track.at(frame, shot.shot.frames) > 0.0)
+        })
+    };
+    shot.material
+        .iter()
+        .find(|(_, material)| has_weight(material))
+        .map(|(name, _)| name.as_str())
 }
 
 /// Lamps of the shot, or of model files that may hold some.

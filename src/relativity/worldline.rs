@@ -99,8 +99,14 @@ impl Transform {
 
     /// An event in the `to` frame.
     pub fn event(&self, e: Event) -> Event {
-        let v = self.boost.vector(FourVector::new(e.t, e.x));
-        Event::new(v.t, self.turned(v.x)) + self.offset
+        let v = self.vector(FourVector::new(e.t, e.x));
+        Event::new(v.t, v.x) + self.offset
+    }
+
+    /// A difference of events in the `to` frame.
+    pub fn vector(&self, v: FourVector) -> FourVector {
+        let v = self.boost.vector(v);
+        FourVector::new(v.t, self.turned(v.x))
     }
 
     /// Light of unit direction `n` in the `to` frame.

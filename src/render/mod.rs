@@ -5,7 +5,7 @@ use crate::plan::{self, Called};
 use crate::scene::Scene;
 use crate::shade::{Settings, Shader};
 use crate::shot::{Effects, Layer, Shot, Splice, Switch};
-use crate::trace::{Node, Samples, Spacetime, Stage, Tracer};
+use crate::trace::{Samples, Spacetime, Stage, Surface, Tracer};
 use glam::DVec3;
 use rayon::prelude::*;
 use std::ops::Range;
@@ -38,6 +38,8 @@ pub struct View<'a> {
     pub called: Called,
     spacetime: Spacetime,
     shader: Shader,
+    bounces: u32,
+    cutoff: f64,
 }
 
 impl<'a> View<'a> {
@@ -56,11 +58,19 @@ impl<'a> View<'a> {
         // Where nothing moves the links are translations, which cost nothing; light still takes
         // its time to the camera.
         let spacetime = Spacetime::new(scene, switches.geometry == Switch::Auto);
+        let bounces = if called.mirror || called.refraction {
+            switches.bounces
+        } else {
+            0
+        };
+        // Between two bodies D is at most the square of what it is between either and the camera.
+        let hops = 1.0 + 2.0 * f64::from(bounces);
+        let to_camera = largest_rapidity(scene, scene.camera.worldline, 0..scene.worldlines.len());
         let settings = Settings {
             called: &called,
             accuracy: &shot.accuracy,
             window_nm: shot.sensor.window,
-            reach: largest_rapidity(scene, scene.camera.worldline, 0..scene.worldlines.len()),
+            reach: hops * to_camera,
             lamp_reach: stage
                 .worldlines()
                 .map(|body| largest_rapidity(scene, body, scene.lights.iter().map(|l| l.worldline)))
@@ -73,6 +83,8 @@ impl<'a> View<'a> {
             called,
             spacetime,
             shader,
+            bounces,
+            cutoff: shot.accuracy.cutoff,
         })
     }
 
@@ -86,6 +98,11 @@ impl<'a> View<'a> {
         &self.spacetime
     }
 
+    /// Whether mirrors or glass are followed.
+    pub fn branches(&self) -> bool {
+        self.bounces > 0
+    }
+
     /// What rays are traced through.
     pub fn tracer(&self) -> Tracer<'_> {
         Tracer {
@@ -93,6 +110,8 @@ impl<'a> View<'a> {
             stage: self.stage,
             spacetime: &self.spacetime,
             shadows: self.called.shadows,
+            bounces: self.bounces,
+            cutoff: self.cutoff,
         }
     }
 }
@@ -160,7 +179,7 @@ pub fn spliced(effects: &Effects, splice: &Splice) -> Effects {
         beaming: over.beaming.unwrap_or(effects.beaming),
         thermal: over.thermal.unwrap_or(effects.thermal),
         shadows: over.shadows.unwrap_or(effects.shadows),
-        bounces: effects.bounces,
+        bounces: over.bounces.unwrap_or(effects.bounces),
     }
 }
 
@@ -193,8 +212,8 @@ pub struct LabPath {
 }
 
 impl LabPath {
-    /// The path to `node` of a camera ray of unit `direction` (camera's rest frame).
-    pub fn new(view: &View<'_>, node: &Node, direction: DVec3) -> Self {
+    /// The path to the first surface of a camera ray of unit `direction` (camera's rest frame).
+    pub fn new(view: &View<'_>, surface: &Surface, direction: DVec3) -> Self {
         const LAB: usize = 0;
         let spacetime = &view.spacetime;
         let camera = spacetime.camera_event(LAB);
@@ -202,7 +221,7 @@ impl LabPath {
         let light = spacetime
             .link(LAB, view.scene.camera.worldline)
             .light(-direction);
-        let distance = node.s * spacetime.path_ratio(light.frequency_ratio);
+        let distance = surface.s * spacetime.path_ratio(light.frequency_ratio);
         let emission = crate::relativity::Event::new(
             camera.t - spacetime.delay(distance),
             camera.x - light.direction * distance,

@@ -4,14 +4,16 @@ use super::{LabPath, Options, View};
 use crate::film::{Film, Layers};
 use crate::shade::ShadeScratch;
 use crate::shot::Layer;
-use crate::trace::{Root, Samples, Scratch, ShadeTrees};
+use crate::trace::{Node, Samples, Scratch, Seen, ShadeTrees};
 use glam::DVec3;
 use std::ops::Range;
 
 /// Rows of pixels that one thread takes at a time.
 pub(super) const BAND: usize = 8;
 /// Rays that are boosted and traced together: their scratch memory stays in the second cache.
-const RAYS: usize = 2048;
+const RAYS: u32 = 2048;
+/// The same where each ray may grow a tree of a thousand nodes, some 100 bytes each.
+const RAYS_WITH_TREES: u32 = 256;
 
 /// What one band of rows writes to.
 pub(super) struct Part<'a> {
@@ -94,7 +96,12 @@ impl Painter {
         part: &mut Part<'_>,
     ) {
         let width = row.options.width;
-        let step = (RAYS as u32 / samples.count()).max(1);
+        let rays = if view.branches() {
+            RAYS_WITH_TREES
+        } else {
+            RAYS
+        };
+        let step = (rays / samples.count()).max(1);
         for first in (0..width).step_by(step as usize) {
             let pixels = first..(first + step).min(width);
             self.trace(view, samples, row, pixels.clone());
@@ -144,20 +151,24 @@ impl Painter {
     }
 
     fn write_layers(&self, view: &View<'_>, ray: usize, at: usize, part: &mut Part<'_>) {
-        let Root::Surface(index) = self.trees.roots[ray] else {
+        let Some(Node {
+            seen: Seen::Surface(surface),
+            doppler,
+            ..
+        }) = self.trees.nodes_of(self.trees.roots[ray]).first()
+        else {
             return;
         };
-        let node = &self.trees.nodes[index as usize];
-        let path = LabPath::new(view, node, self.directions[ray]);
+        let path = LabPath::new(view, surface, self.directions[ray]);
         for (layer, values) in &mut part.layers {
             values[at] = match layer {
                 // On a covered pixel it is above 0, also where f32 is at its end.
-                Layer::Doppler => node.doppler.max(f64::from(f32::MIN_POSITIVE)),
+                Layer::Doppler => doppler.max(f64::from(f32::MIN_POSITIVE)),
                 Layer::Distance => path.distance,
                 Layer::EmissionTime => path.emission.t,
-                Layer::Worldline => {
-                    f64::from(view.scene.geometry.instances[node.hit.instance as usize].worldline)
-                }
+                Layer::Worldline => f64::from(
+                    view.scene.geometry.instances[surface.hit.instance as usize].worldline,
+                ),
             }
             .clamp(f64::from(f32::MIN), f64::from(f32::MAX)) as f32;
         }

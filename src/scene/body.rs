@@ -32,6 +32,8 @@ pub struct Geometry {
     pub instances: Vec<Instance>,
     /// What the instances were placed by.
     pub(super) placing: Vec<Placing>,
+    /// Which materials are boundaries of glass.
+    pub(super) glass: Vec<bool>,
 }
 
 /// Where a model stands in one image: model to rest frame, and the steps of its array.
@@ -108,12 +110,14 @@ pub struct SurfacePoint {
 
 impl Geometry {
     /// The bodies of a shot, placed as `placing` says. `worldlines` are indices of the models'
-    /// worldlines, `materials` those of each model's own materials.
+    /// worldlines, `materials` those of each model's own materials, of which those that are `glass`
+    /// have two sides whatever their file says, or light that enters would not come out.
     pub(super) fn new(
         library: &Library,
         placing: Vec<Placing>,
         worldlines: &[u32],
         materials: &[Vec<u32>],
+        glass: Vec<bool>,
     ) -> Self {
         let mut meshes: Vec<Arc<Mesh>> = Vec::new();
         let mut instances = Vec::new();
@@ -129,12 +133,14 @@ impl Geometry {
                     let mut rest_from_mesh = place.rest_from_model * placement.world;
                     rest_from_mesh.translation += copy;
                     let own = loaded.meshes[placement.mesh].material;
+                    let material = materials[index][own.unwrap_or(loaded.file.materials.len())];
                     Instance {
                         mesh: numbers[placement.mesh],
                         worldline: worldlines[index],
                         model: index as u32,
-                        material: materials[index][own.unwrap_or(loaded.file.materials.len())],
-                        double_sided: own.is_none_or(|own| loaded.file.materials[own].double_sided),
+                        material,
+                        double_sided: glass[material as usize]
+                            || own.is_none_or(|own| loaded.file.materials[own].double_sided),
                         rest_from_mesh,
                     }
                 }));
@@ -144,6 +150,7 @@ impl Geometry {
             meshes,
             instances,
             placing,
+            glass,
         }
     }
 

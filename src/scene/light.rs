@@ -87,6 +87,13 @@ pub struct Background {
     pub spectrum: Option<Arc<Spectrum>>,
 }
 
+impl Background {
+    /// Whether there is nothing to see.
+    pub fn is_black(&self) -> bool {
+        self.spectrum.is_none()
+    }
+}
+
 /// Why a lamp cannot shine.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub(super) enum LightError {

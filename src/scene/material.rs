@@ -8,6 +8,8 @@ use std::sync::Arc;
 
 /// Exponent of a highlight whose author gave none.
 const EXPONENT: f64 = 40.0;
+/// Index of refraction where its author gave none: of common glass.
+const IOR: f64 = 1.5;
 
 /// A surface: the sum of its terms, each None where it has none.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -18,6 +20,10 @@ pub struct Material {
     pub diffuse: Option<Reflectance>,
     /// Blinn–Phong highlight.
     pub highlight: Option<Highlight>,
+    /// Ideal reflection.
+    pub mirror: Option<Reflectance>,
+    /// Ideal refraction.
+    pub refraction: Option<Refraction>,
     /// Cold light of its own: spectral radiance scale × spectrum, W·m⁻²·sr⁻¹·nm⁻¹.
     pub emission: Option<Reflectance>,
     /// Thermal light of its own.
@@ -33,6 +39,13 @@ pub struct Reflectance {
     pub spectrum: Arc<Spectrum>,
 }
 
+impl Reflectance {
+    /// The largest share of light that it lets go on, at any wavelength.
+    pub fn most(&self) -> f64 {
+        (self.weight * self.spectrum.peak()).min(1.0)
+    }
+}
+
 /// A highlight: weight × spectrum × (n+8)/(8π) × (N·H)ⁿ is added to the BRDF.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Highlight {
@@ -40,6 +53,15 @@ pub struct Highlight {
     pub reflectance: Reflectance,
     /// n, at least 0.
     pub exponent: f64,
+}
+
+/// Ideal refraction at a boundary: outside, where triangles show their front, is vacuum.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Refraction {
+    /// weight × spectrum, of what passes the boundary.
+    pub transmittance: Reflectance,
+    /// Index of refraction inside, at least 1.
+    pub ior: f64,
 }
 
 /// Thermal light: emissivity × a black body's curve.
@@ -159,6 +181,28 @@ impl Material {
                 exponent: exponent.unwrap_or(kept),
             });
         }
+        if let Some(term) = &shot.mirror {
+            let over = Over {
+                term: "mirror",
+                weight: &term.weight,
+                spectrum: &term.spectrum,
+            };
+            self.mirror = Some(over.reflectance(self.mirror, spectra)?);
+        }
+        if let Some(term) = &shot.refraction {
+            let ior = term.ior.as_ref().map(|ior| spectra.at(ior));
+            let below = self.refraction.take();
+            let kept = below.as_ref().map_or(IOR, |r| r.ior);
+            let over = Over {
+                term: "refraction",
+                weight: &term.weight,
+                spectrum: &term.spectrum,
+            };
+            self.refraction = Some(Refraction {
+                transmittance: over.reflectance(below.map(|r| r.transmittance), spectra)?,
+                ior: ior.unwrap_or(kept),
+            });
+        }
         if let Some(term) = &shot.thermal {
             self.thermal = thermal(term, spectra)?;
         }
@@ -171,7 +215,22 @@ impl Material {
         self.diffuse = self.diffuse.filter(seen);
         self.emission = self.emission.filter(seen);
         self.highlight = self.highlight.filter(|h| seen(&h.reflectance));
+        self.mirror = self.mirror.filter(seen);
+        // Without transmittance it is still a boundary, which gives a mirror its share.
+        self.refraction = self
+            .refraction
+            .filter(|r| self.mirror.is_some() || seen(&r.transmittance));
         self
+    }
+
+    /// Whether lamps show on it.
+    pub fn takes_lamps(&self) -> bool {
+        self.diffuse.is_some() || self.highlight.is_some()
+    }
+
+    /// Whether other things are seen in it.
+    pub fn passes_light_on(&self) -> bool {
+        self.mirror.is_some() || self.refraction.is_some()
     }
 }
 

@@ -52,9 +52,15 @@ impl Scene {
         frame: u32,
         earlier: Option<&Scene>,
     ) -> Result<Self, Mistakes> {
-        Resolver::new(shot, library, frame).run(|placing, worldlines, materials| match earlier {
-            Some(earlier) if earlier.geometry.placing == placing => Arc::clone(&earlier.geometry),
-            _ => Arc::new(Geometry::new(library, placing, worldlines, materials)),
+        Resolver::new(shot, library, frame).run(|placing, worldlines, of_models, glass| {
+            match earlier.map(|scene| &scene.geometry) {
+                Some(bodies) if bodies.placing == placing && bodies.glass == glass => {
+                    Arc::clone(bodies)
+                }
+                _ => Arc::new(Geometry::new(
+                    library, placing, worldlines, of_models, glass,
+                )),
+            }
         })
     }
 
@@ -64,7 +70,7 @@ impl Scene {
     /// As [`Scene::resolve`].
     pub fn check(shot: &Shot, library: &Library, frame: u32) -> Result<(), Mistakes> {
         Resolver::new(shot, library, frame)
-            .run(|_, _, _| Arc::default())
+            .run(|_, _, _, _| Arc::default())
             .map(|_| ())
     }
 }
@@ -94,7 +100,7 @@ impl<'a> Resolver<'a> {
 impl Resolver<'_> {
     fn run(
         mut self,
-        bodies: impl FnOnce(Vec<Placing>, &[u32], &[Vec<u32>]) -> Arc<Geometry>,
+        bodies: impl FnOnce(Vec<Placing>, &[u32], &[Vec<u32>], Vec<bool>) -> Arc<Geometry>,
     ) -> Result<Scene, Mistakes> {
         let shot = self.shot;
         let names = worldline_names(shot);
@@ -122,7 +128,8 @@ impl Resolver<'_> {
         let (Some(camera), true) = (camera, self.mistakes.is_empty()) else {
             return Err(Mistakes::new(&shot.places, self.mistakes));
         };
-        let geometry = bodies(placing, &model_worldlines, &of_models);
+        let glass = materials.iter().map(|m| m.refraction.is_some()).collect();
+        let geometry = bodies(placing, &model_worldlines, &of_models, glass);
         Ok(Scene {
             worldlines,
             worldline_names: names.into_iter().collect(),

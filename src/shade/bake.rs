@@ -4,23 +4,34 @@ use super::curve::Curve;
 use super::table::XyzTable;
 use super::thermal::Glow;
 use crate::plan::Called;
-use crate::scene::{Material, Scene, Thermal};
+use crate::scene::{Material, Reflectance, Scene, Thermal};
 use crate::shot::{Accuracy, Spectra};
 use crate::spectrum::{Sensor, Spectrum};
+use crate::trace::Term;
 use std::sync::Arc;
 
 /// A material's curves.
-pub(super) struct Surface {
+pub(super) struct MaterialCurves {
     pub(super) diffuse: Option<Reflecting>,
     pub(super) highlight: Option<Reflecting>,
     pub(super) emission: Option<Sight>,
     pub(super) glow: Option<Glow>,
+    mirror: Option<Curve>,
+    refraction: Option<Curve>,
 }
 
-impl Surface {
+impl MaterialCurves {
     /// Diffuse and highlight.
     pub(super) fn reflecting(&self) -> impl Iterator<Item = &Option<Reflecting>> {
         [&self.diffuse, &self.highlight].into_iter()
+    }
+
+    /// The share of light that a term passes on.
+    pub(super) fn passing(&self, term: Term) -> Option<&Curve> {
+        match term {
+            Term::Mirror => self.mirror.as_ref(),
+            Term::Refraction => self.refraction.as_ref(),
+        }
     }
 }
 
@@ -99,7 +110,7 @@ impl Bake<'_> {
         )
     }
 
-    pub(super) fn surface(&self, material: &Material, emitters: &[Sight]) -> Surface {
+    pub(super) fn surface(&self, material: &Material, emitters: &[Sight]) -> MaterialCurves {
         let reflecting = |weight: f64, spectrum: &Arc<Spectrum>| {
             let reflectance = self.curve(spectrum, weight, 1.0);
             let tabulated = emitters.iter().filter(|_| self.tabulated);
@@ -111,11 +122,13 @@ impl Bake<'_> {
                 tables,
             }
         };
+        let passing =
+            |term: Option<&Reflectance>| term.map(|r| self.curve(&r.spectrum, r.weight, 1.0));
         let thermal = material
             .thermal
             .as_ref()
             .filter(|_| self.settings.called.thermal);
-        Surface {
+        MaterialCurves {
             diffuse: material
                 .diffuse
                 .as_ref()
@@ -131,6 +144,8 @@ impl Bake<'_> {
                 )
             }),
             glow: thermal.map(|t| self.glow(t)),
+            mirror: passing(material.mirror.as_ref()),
+            refraction: passing(material.refraction.as_ref().map(|r| &r.transmittance)),
         }
     }
 

@@ -10,10 +10,14 @@
 
 mod bake;
 mod curve;
+mod lamps;
+mod passage;
+mod radiance;
 pub mod received;
 mod shader;
 mod table;
 mod thermal;
 
 pub use bake::Settings;
+pub use radiance::Radiance;
 pub use shader::{ShadeScratch, Shader};

@@ -1,26 +1,28 @@
 //! The shader of one image: its materials and lamps with their curves ready.
 
-use super::bake::{Bake, MOST_TABLES, Settings, Sight, Surface, distinct_emitters};
+use super::bake::{Bake, MOST_TABLES, MaterialCurves, Settings, Sight, distinct_emitters};
+use super::passage::Passages;
+use super::radiance::Radiance;
 use super::received::Received;
 use super::thermal::BlackBodies;
 use crate::scene::Scene;
 use crate::shot::Spectra;
 use crate::spectrum::{LogAxis, Sensor};
-use crate::trace::{Lit, Node, Root, ShadeTrees};
+use crate::trace::{Node, Root, Seen, ShadeTrees, Surface};
 
 /// Turns shade trees to light.
 pub struct Shader {
-    sensor: Sensor,
-    received: Received,
-    surfaces: Vec<Surface>,
+    pub(super) sensor: Sensor,
+    pub(super) received: Received,
+    surfaces: Vec<MaterialCurves>,
     /// Index of its emitter and scale, for each light.
-    lamps: Vec<(usize, f64)>,
+    pub(super) lamps: Vec<(usize, f64)>,
     /// Distinct spectra of lamps.
-    emitters: Vec<Sight>,
+    pub(super) emitters: Vec<Sight>,
     background: Option<Sight>,
     bodies: Option<BlackBodies>,
     /// Whether tables stand in for sums over wavelengths.
-    tabulated: bool,
+    pub(super) tabulated: bool,
 }
 
 impl Shader {
@@ -40,7 +42,7 @@ impl Shader {
             .iter()
             .map(|spectrum| bake.emitter(spectrum))
             .collect();
-        let surfaces: Vec<Surface> = scene
+        let surfaces: Vec<MaterialCurves> = scene
             .materials
             .iter()
             .map(|material| bake.surface(material, &emitters))
@@ -72,42 +74,32 @@ impl Shader {
 
     /// XYZ (cd/m²) that the camera receives along a ray.
     pub fn xyz(&self, trees: &ShadeTrees, root: Root, scratch: &mut ShadeScratch) -> [f64; 3] {
-        match root {
-            Root::Sky(d) => self
-                .background
-                .as_ref()
-                .map_or([0.0; 3], |sky| self.sight(sky, d, scratch)),
-            Root::Surface(index) => self.surface_xyz(trees, index, scratch),
+        match trees.nodes_of(root) {
+            [] => [0.0; 3],
+            [only] => self.node_xyz(trees, only, scratch),
+            nodes => self.tree_xyz(trees, nodes, scratch),
         }
     }
 
-    /// Spectral radiance (W·m⁻²·sr⁻¹·nm⁻¹) that the camera receives along a ray, at
-    /// [`Shader::wavelengths_nm`].
-    pub fn radiance(&self, trees: &ShadeTrees, root: Root) -> Vec<f64> {
-        let mut out = vec![0.0; self.sensor.axis().count()];
+    /// Spectral radiance that the camera receives along a ray, at [`Shader::wavelengths_nm`].
+    pub fn radiance(&self, trees: &ShadeTrees, root: Root) -> Radiance {
+        let count = self.sensor.axis().count();
+        let mut sum = Radiance::new(count);
         let mut scratch = ShadeScratch::default();
-        match root {
-            Root::Sky(d) => {
-                if let Some(sky) = &self.background {
-                    self.add_sight(sky, d, &mut out, &mut scratch);
-                }
-            }
-            Root::Surface(index) => {
-                let node = trees.nodes[index as usize];
-                let surface = &self.surfaces[node.material as usize];
-                if let Some(emission) = &surface.emission {
-                    self.add_sight(emission, node.doppler, &mut out, &mut scratch);
-                }
-                if let Some(glow) = &surface.glow {
-                    glow.add(node.doppler, self.received, self.sensor.axis(), &mut out);
-                }
-                for lit in lamps(trees, &node) {
-                    self.add_lamp(surface, &node, lit, &mut out, &mut scratch);
+        let mut passages = Passages::new(count);
+        let nodes = trees.nodes_of(root);
+        for node in nodes {
+            self.pass(nodes, node, &mut passages);
+            let mut light = Radiance::new(count);
+            self.add_node(trees, node, &mut light, &mut scratch);
+            for (sum, light) in sum.parts_mut().into_iter().zip(light.parts_mut()) {
+                passages.weigh_last(light);
+                for (sum, value) in sum.iter_mut().zip(&*light) {
+                    *sum = finite(*sum + value);
                 }
             }
         }
-        out.iter_mut().for_each(|value| *value = finite(*value));
-        out
+        sum
     }
 
     /// XYZ of spectral radiance at [`Shader::wavelengths_nm`].
@@ -115,156 +107,112 @@ impl Shader {
         self.sensor.xyz(radiance)
     }
 
-    fn surface_xyz(&self, trees: &ShadeTrees, index: u32, scratch: &mut ShadeScratch) -> [f64; 3] {
-        let node = trees.nodes[index as usize];
-        let surface = &self.surfaces[node.material as usize];
+    /// Light of a tree of several nodes, each through the mirrors and glass on its way.
+    fn tree_xyz(&self, trees: &ShadeTrees, nodes: &[Node], scratch: &mut ShadeScratch) -> [f64; 3] {
+        let count = self.sensor.axis().count();
+        let mut passages = std::mem::take(&mut scratch.passages);
+        passages.clear(count);
         let mut sum = [0.0; 3];
-        if let Some(emission) = &surface.emission {
-            add(&mut sum, self.sight(emission, node.doppler, scratch), 1.0);
+        for node in nodes {
+            self.pass(nodes, node, &mut passages);
+            if let Some(grey) = passages.last_grey() {
+                if grey > 0.0 {
+                    add(&mut sum, self.node_xyz(trees, node, scratch), grey);
+                }
+                continue;
+            }
+            let mut light = std::mem::take(&mut scratch.radiance);
+            light.clear(count);
+            self.add_node(trees, node, &mut light, scratch);
+            let mut total = light.total();
+            passages.weigh_last(&mut total);
+            add(&mut sum, self.sensor.xyz(&total), 1.0);
+            scratch.radiance = light;
         }
-        if let (Some(glow), Some(bodies)) = (&surface.glow, &self.bodies) {
+        scratch.passages = passages;
+        sum.map(finite)
+    }
+
+    /// Adds the way of a node's light to those of the tree's nodes before it.
+    fn pass(&self, nodes: &[Node], node: &Node, passages: &mut Passages) {
+        let Some(branch) = node.branch else {
+            return passages.start();
+        };
+        let by = nodes[branch.parent as usize];
+        let curve = match by.seen {
+            Seen::Surface(surface) => self.surfaces[surface.material as usize].passing(branch.term),
+            Seen::Sky(_) => None,
+        };
+        passages.go_on(&branch, curve, self.received.shift(by.doppler));
+    }
+
+    fn node_xyz(&self, trees: &ShadeTrees, node: &Node, scratch: &mut ShadeScratch) -> [f64; 3] {
+        match &node.seen {
+            Seen::Sky(_) => self
+                .background
+                .as_ref()
+                .map_or([0.0; 3], |sky| self.sight(sky, node.doppler, scratch)),
+            Seen::Surface(surface) => self.surface_xyz(trees, surface, node.doppler, scratch),
+        }
+    }
+
+    fn surface_xyz(
+        &self,
+        trees: &ShadeTrees,
+        surface: &Surface,
+        doppler: f64,
+        scratch: &mut ShadeScratch,
+    ) -> [f64; 3] {
+        let curves = &self.surfaces[surface.material as usize];
+        let mut sum = [0.0; 3];
+        if let Some(emission) = &curves.emission {
+            add(&mut sum, self.sight(emission, doppler, scratch), 1.0);
+        }
+        if let (Some(glow), Some(bodies)) = (&curves.glow, &self.bodies) {
             let [shape, _] = scratch.buffers(self.sensor.axis().count());
-            let xyz = glow.xyz(node.doppler, self.received, &self.sensor, bodies, shape);
+            let xyz = glow.xyz(doppler, self.received, &self.sensor, bodies, shape);
             add(&mut sum, xyz, 1.0);
         }
-        if node.lamps > 0 {
+        let lamps = trees.lamps_on(surface);
+        if !lamps.is_empty() {
             add(
                 &mut sum,
-                self.lamps_xyz(trees, &node, surface, scratch),
+                self.lamps_xyz(lamps, doppler, curves, scratch),
                 1.0,
             );
         }
         sum
     }
 
-    /// Light of the surface's lamps. Those that share the surface's shift are summed by emitter,
-    /// so that each table is read once.
-    fn lamps_xyz(
+    /// Adds the spectral radiance of one node as the camera would see it directly.
+    fn add_node(
         &self,
         trees: &ShadeTrees,
         node: &Node,
-        surface: &Surface,
-        scratch: &mut ShadeScratch,
-    ) -> [f64; 3] {
-        let mut sum = [0.0; 3];
-        let shift = self.received.shift(node.doppler);
-        scratch.comoving.clear();
-        scratch.comoving.resize(self.emitters.len(), [0.0; 2]);
-        for lit in lamps(trees, node) {
-            let (emitter, scale) = self.lamps[lit.light as usize];
-            let scale = scale * self.received.irradiance(lit.doppler);
-            let shares = [scale * lit.diffuse, scale * lit.highlight].map(finite);
-            let lamp_shift = self.received.shift(lit.doppler);
-            let shared = lamp_shift == 1.0 || self.emitters[emitter].curve.constant().is_some();
-            if shared && self.tabulated {
-                scratch.comoving[emitter][0] += shares[0];
-                scratch.comoving[emitter][1] += shares[1];
-            } else {
-                let xyz = self.lamp_xyz(
-                    surface,
-                    emitter,
-                    shares,
-                    [shift, shift * lamp_shift],
-                    scratch,
-                );
-                add(&mut sum, xyz, 1.0);
-            }
-        }
-        let ln_shift = shift.ln();
-        for (emitter, shares) in scratch.comoving.iter().enumerate() {
-            for (term, share) in surface.reflecting().zip(shares) {
-                if let Some(reflecting) = term
-                    && *share > 0.0
-                {
-                    add(
-                        &mut sum,
-                        reflecting.tables[emitter].at(ln_shift),
-                        finite(*share),
-                    );
-                }
-            }
-        }
-        let power = self.received.radiance(node.doppler);
-        sum.map(|v| v * power)
-    }
-
-    /// Light of one lamp that moves against the surface: two shifts, of reflectance and emitter.
-    fn lamp_xyz(
-        &self,
-        surface: &Surface,
-        emitter: usize,
-        shares: [f64; 2],
-        shifts: [f64; 2],
-        scratch: &mut ShadeScratch,
-    ) -> [f64; 3] {
-        let mut sum = [0.0; 3];
-        let [ln_surface, ln_lamp] = shifts.map(f64::ln);
-        let emitter = &self.emitters[emitter];
-        for (term, share) in surface.reflecting().zip(shares) {
-            let Some(reflecting) = term else { continue };
-            if share <= 0.0 {
-                continue;
-            }
-            let reflectance = &reflecting.reflectance;
-            let xyz = match (
-                reflectance.constant(),
-                reflectance.baked(),
-                emitter.curve.baked(),
-            ) {
-                (Some(constant), ..) if self.tabulated => {
-                    emitter.table.at(ln_lamp).map(|v| v * constant)
-                }
-                (None, Some(reflectance), Some(light)) => {
-                    let peak = reflectance.peak() * light.peak();
-                    let (one, other) = (reflectance.shifted(ln_surface), light.shifted(ln_lamp));
-                    self.sensor.xyz_of_product(&one, &other).map(|v| v * peak)
-                }
-                _ => {
-                    let [light, reflected] = scratch.buffers(self.sensor.axis().count());
-                    let factor = emitter.curve.read(shifts[1], light)
-                        * reflectance.read(shifts[0], reflected);
-                    for (reflected, light) in reflected.iter_mut().zip(&*light) {
-                        *reflected *= light;
-                    }
-                    self.sensor.xyz_of_shape(reflected).map(|v| v * factor)
-                }
-            };
-            add(&mut sum, xyz, share);
-        }
-        sum
-    }
-
-    /// Adds the spectral radiance that one lamp makes of a surface.
-    fn add_lamp(
-        &self,
-        surface: &Surface,
-        node: &Node,
-        lit: &Lit,
-        out: &mut [f64],
+        light: &mut Radiance,
         scratch: &mut ShadeScratch,
     ) {
-        let (emitter, scale) = self.lamps[lit.light as usize];
-        let [light, reflected] = scratch.buffers(out.len());
-        let shift = self.received.shift(node.doppler);
-        let peak = self.emitters[emitter]
-            .curve
-            .read(shift * self.received.shift(lit.doppler), light);
-        let factor = scale
-            * peak
-            * self.received.radiance(node.doppler)
-            * self.received.irradiance(lit.doppler);
-        for (term, share) in [
-            (&surface.diffuse, lit.diffuse),
-            (&surface.highlight, lit.highlight),
-        ] {
-            if let Some(reflecting) = term
-                && share > 0.0
-            {
-                let factor = finite(factor * share * reflecting.reflectance.read(shift, reflected));
-                for ((out, light), reflected) in out.iter_mut().zip(&*light).zip(&*reflected) {
-                    *out += factor * f64::from(light * reflected);
-                }
+        let doppler = node.doppler;
+        let Seen::Surface(surface) = &node.seen else {
+            if let Some(sky) = &self.background {
+                self.add_sight(sky, doppler, &mut light.surface, scratch);
             }
+            return;
+        };
+        let curves = &self.surfaces[surface.material as usize];
+        if let Some(emission) = &curves.emission {
+            self.add_sight(emission, doppler, &mut light.surface, scratch);
+        }
+        if let Some(glow) = &curves.glow {
+            glow.add(
+                doppler,
+                self.received,
+                self.sensor.axis(),
+                &mut light.thermal,
+            );
+        }
+        for lit in trees.lamps_on(surface) {
+            self.add_lamp(curves, doppler, lit, &mut light.surface, scratch);
         }
     }
 
@@ -292,31 +240,29 @@ impl Shader {
 /// Scratch memory of a [`Shader`], to be kept from ray to ray.
 #[derive(Default)]
 pub struct ShadeScratch {
-    comoving: Vec<[f64; 2]>,
+    pub(super) comoving: Vec<[f64; 2]>,
     light: Vec<f32>,
     reflected: Vec<f32>,
+    passages: Passages,
+    radiance: Radiance,
 }
 
 impl ShadeScratch {
-    fn buffers(&mut self, count: usize) -> [&mut [f32]; 2] {
+    pub(super) fn buffers(&mut self, count: usize) -> [&mut [f32]; 2] {
         self.light.resize(count, 0.0);
         self.reflected.resize(count, 0.0);
         [&mut self.light, &mut self.reflected]
     }
 }
 
-fn lamps<'a>(trees: &'a ShadeTrees, node: &Node) -> &'a [Lit] {
-    &trees.lit[node.first_lamp as usize..(node.first_lamp + node.lamps) as usize]
-}
-
 /// Held to the largest number: infinitely much of nothing would be no number.
 #[inline(always)]
-fn finite(value: f64) -> f64 {
+pub(super) fn finite(value: f64) -> f64 {
     value.min(f64::MAX)
 }
 
 #[inline(always)]
-fn add(sum: &mut [f64; 3], value: [f64; 3], factor: f64) {
+pub(super) fn add(sum: &mut [f64; 3], value: [f64; 3], factor: f64) {
     for (sum, value) in sum.iter_mut().zip(value) {
         *sum += value * factor;
     }

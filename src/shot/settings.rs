@@ -87,7 +87,7 @@ pub struct Effects {
     pub thermal: Switch,
     /// Whether surfaces keep light from each other. Default: "auto".
     pub shadows: Switch,
-    /// Depth of mirror and refraction, where a material has them. Default: 4.
+    /// Depth of mirror and refraction, where a material has them: how many surfaces light may have been reflected or refracted by. 0 turns both off. Default: 4.
     #[schemars(range(max = 64))]
     pub bounces: u32,
 }
@@ -152,6 +152,9 @@ pub struct SpliceEffects {
     pub thermal: Option<Switch>,
     /// Whether surfaces keep light from each other. Default: the shot's.
     pub shadows: Option<Switch>,
+    /// Depth of mirror and refraction. Default: the shot's.
+    #[schemars(range(max = 64))]
+    pub bounces: Option<u32>,
 }
 
 /// `[sensor]`: from spectral radiance to pixel values.
@@ -224,6 +227,9 @@ pub struct Accuracy {
     /// Wavelengths over the sensor's window, from 8 to 4096. Default: 84.
     #[schemars(range(min = 8, max = 4096))]
     pub wavelengths: u32,
+    /// Mirrored and refracted light that reaches the camera with no more than this share (the product of the reflectances on its way) is left out, from 0 to 1. Default: 1e-4.
+    #[schemars(range(min = 0, max = 1))]
+    pub cutoff: f64,
 }
 
 impl Default for Accuracy {
@@ -231,6 +237,7 @@ impl Default for Accuracy {
         Accuracy {
             spectra: Spectra::Grid,
             wavelengths: 84,
+            cutoff: 1e-4,
         }
     }
 }

@@ -2,9 +2,10 @@
 //! rest frame.
 
 use super::stage::RestRay;
-use super::{Lit, Nearest, Tracer};
+use super::surface::Place;
+use super::{Lit, Tracer};
 use crate::relativity::{Event, light_arriving};
-use crate::scene::{Light, LightShape, Material, SurfacePoint};
+use crate::scene::{Light, LightShape, Material};
 use glam::DVec3;
 use std::f64::consts::PI;
 
@@ -21,26 +22,15 @@ struct Incoming {
     falloff: f64,
 }
 
-/// The surface event and its surroundings, in the surface's rest frame.
-struct Surface {
-    worldline: usize,
-    event: Event,
-    point: SurfacePoint,
-    /// Towards the viewer.
-    view: DVec3,
-}
-
-/// Adds the lamps that light the surface at `nearest`.
-pub(super) fn add_lamps(tracer: &Tracer<'_>, nearest: &Nearest, lit: &mut Vec<Lit>) {
-    let scene = tracer.scene;
-    let instance = &scene.geometry.instances[nearest.hit.instance as usize];
-    let material = &scene.materials[instance.material as usize];
-    if scene.lights.is_empty() || (material.diffuse.is_none() && material.highlight.is_none()) {
-        return;
-    }
-    let surface = surface(tracer, nearest);
-    for (index, light) in scene.lights.iter().enumerate() {
-        if let Some(lamp) = light_on(tracer, &surface, material, light) {
+/// Adds the lamps that light a surface of the given material.
+pub(super) fn add_lamps(
+    tracer: &Tracer<'_>,
+    surface: &Place,
+    material: &Material,
+    lit: &mut Vec<Lit>,
+) {
+    for (index, light) in tracer.scene.lights.iter().enumerate() {
+        if let Some(lamp) = light_on(tracer, surface, material, light) {
             lit.push(Lit {
                 light: index as u32,
                 ..lamp
@@ -49,31 +39,9 @@ pub(super) fn add_lamps(tracer: &Tracer<'_>, nearest: &Nearest, lit: &mut Vec<Li
     }
 }
 
-fn surface(tracer: &Tracer<'_>, nearest: &Nearest) -> Surface {
-    let hit = &nearest.hit;
-    let mut point = tracer
-        .scene
-        .geometry
-        .surface_point(hit.instance, hit.triangle, hit.weights);
-    let view = -nearest.direction;
-    if point.flat_normal.dot(view) < 0.0 {
-        point.flat_normal = -point.flat_normal;
-        point.normal = -point.normal;
-        // Seen from behind, the smooth surface is hollow.
-        point.bulge = DVec3::ZERO;
-    }
-    let time = tracer.spacetime.camera_event(nearest.worldline).t - tracer.spacetime.delay(hit.t);
-    Surface {
-        worldline: nearest.worldline,
-        event: Event::new(time, point.position),
-        point,
-        view,
-    }
-}
-
 fn light_on(
     tracer: &Tracer<'_>,
-    surface: &Surface,
+    surface: &Place,
     material: &Material,
     light: &Light,
 ) -> Option<Lit> {
@@ -89,7 +57,7 @@ fn light_on(
     let irradiance = incoming.falloff * cos;
     let highlight = material.highlight.as_ref().map_or(0.0, |highlight| {
         let n = highlight.exponent;
-        let half = (to_lamp + surface.view).normalize_or(surface.point.normal);
+        let half = (to_lamp + surface.view()).normalize_or(surface.point.normal);
         let lobe = surface.point.normal.dot(half).max(0.0).powf(n);
         irradiance * (n + 8.0) / (8.0 * PI) * lobe
     });
@@ -103,7 +71,7 @@ fn light_on(
 }
 
 /// The lamp's light at the surface event, or None where the lamp is at that very event.
-fn incoming(tracer: &Tracer<'_>, surface: &Surface, light: &Light) -> Option<Incoming> {
+fn incoming(tracer: &Tracer<'_>, surface: &Place, light: &Light) -> Option<Incoming> {
     let spacetime = tracer.spacetime;
     let (in_lamp, distance, spread) = match light.shape {
         LightShape::Point { position } | LightShape::Spot { position, .. } => {
@@ -134,7 +102,7 @@ fn incoming(tracer: &Tracer<'_>, surface: &Surface, light: &Light) -> Option<Inc
 /// Whether a body of any worldline stands on the light path between surface and lamp. The path is
 /// one null line: in each rest frame it starts at the surface event, and its length there is that
 /// in the lamp's frame times the ratio of frequencies.
-fn in_shadow(tracer: &Tracer<'_>, surface: &Surface, light: &Light, incoming: &Incoming) -> bool {
+fn in_shadow(tracer: &Tracer<'_>, surface: &Place, light: &Light, incoming: &Incoming) -> bool {
     let spacetime = tracer.spacetime;
     // From the smooth surface, or facets of a round body would shade each other where lamps rise.
     let off_surface = surface.point.bulge + surface.point.flat_normal * surface.point.clearance;

@@ -12,96 +12,46 @@
 mod ball;
 mod bvh;
 mod direct;
+mod flight;
+mod grow;
 mod mesh_tree;
+mod optics;
 mod ray;
 mod sampler;
 mod spacetime;
 mod stage;
+mod surface;
+mod tree;
 mod triangle;
 
-use crate::scene::Scene;
+use crate::scene::{Material, Scene};
 use glam::DVec3;
+use grow::Buds;
+use surface::Place;
 
 pub use ray::boost_directions;
 pub use sampler::{Samples, filter_offset};
 pub use spacetime::{Link, Spacetime};
 pub use stage::{BodyHit, RestRay, Stage};
-
-/// Shade trees of some camera rays, without spectra: what frames that differ only in colours,
-/// temperatures or exposure share.
-#[derive(Debug, Default)]
-pub struct ShadeTrees {
-    /// What each ray sees first, in the order of the rays.
-    pub roots: Vec<Root>,
-    /// Surfaces that were hit.
-    pub nodes: Vec<Node>,
-    /// Lamps that light them.
-    pub lit: Vec<Lit>,
-}
-
-impl ShadeTrees {
-    /// Empties the trees, keeping their memory.
-    pub fn clear(&mut self) {
-        self.roots.clear();
-        self.nodes.clear();
-        self.lit.clear();
-    }
-}
-
-/// What a camera ray sees first.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Root {
-    /// The background, shifted by this Doppler factor.
-    Sky(f64),
-    /// A surface: index into [`ShadeTrees::nodes`].
-    Surface(u32),
-}
-
-/// A surface in a shade tree.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Node {
-    /// Index into the scene's materials.
-    pub material: u32,
-    /// D from the surface to the camera.
-    pub doppler: f64,
-    /// Length of the light path in the camera's rest frame, metres.
-    pub s: f64,
-    /// What was hit where.
-    pub hit: BodyHit,
-    /// Its lamps: this many …
-    pub lamps: u32,
-    /// … from this index of [`ShadeTrees::lit`] on.
-    pub first_lamp: u32,
-}
-
-/// A lamp's light on a surface. The irradiance of the surface is D³·I(Dλ)/r² times a cosine; here
-/// stand the factors that do not depend on wavelength or on how much beaming is simulated.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Lit {
-    /// Index into the scene's lights.
-    pub light: u32,
-    /// D from the lamp to the surface.
-    pub doppler: f64,
-    /// share · cos θ / (π r²), m⁻²: times ρ and the irradiance's spectrum gives radiance.
-    pub diffuse: f64,
-    /// share · cos θ · (n+8)/(8π) · (N·H)ⁿ / r².
-    pub highlight: f64,
-}
+pub use tree::{Branch, Lit, Node, Root, Seen, ShadeTrees, Surface, Term};
 
 /// Scratch memory of [`Tracer::trace`], to be kept from call to call.
 #[derive(Default)]
 pub struct Scratch {
     boosted: Vec<(DVec3, f64)>,
     nearest: Vec<Option<Nearest>>,
+    buds: Buds,
 }
 
 /// The nearest hit of a ray so far.
 #[derive(Clone, Copy)]
 struct Nearest {
+    /// Length of the light path in the rest frame that the ray starts in.
     s: f64,
-    worldline: usize,
     hit: BodyHit,
-    /// Ray direction in the rest frame of what was hit, and ω there over ω in the camera's.
+    /// In the rest frame of what was hit: when the light left, the ray's direction, and ω over
+    /// what it is where the ray starts.
+    time: f64,
     direction: DVec3,
     frequency_ratio: f64,
 }
@@ -116,6 +66,12 @@ pub struct Tracer<'a> {
     pub spacetime: &'a Spacetime,
     /// Whether bodies cast shadows.
     pub shadows: bool,
+    /// How many mirrors and boundaries of glass are followed, one after the other; 0 where the
+    /// image calls for none.
+    pub bounces: u32,
+    /// Branches that carry no more than this share of what arrives by them are not followed. What
+    /// is lost is [`Root::cut`].
+    pub cutoff: f64,
 }
 
 impl Tracer<'_> {
@@ -127,25 +83,30 @@ impl Tracer<'_> {
         for worldline in self.stage.worldlines() {
             self.meet(worldline, directions, scratch);
         }
-        let sky = self
-            .spacetime
-            .link(self.scene.background.worldline, self.scene.camera.worldline);
         for (direction, nearest) in directions.iter().zip(&scratch.nearest) {
-            let root = match nearest {
-                Some(nearest) => Root::Surface(self.add_surface(nearest, trees)),
-                None => Root::Sky(1.0 / sky.light(-*direction).frequency_ratio),
+            let first = trees.nodes.len();
+            let cut = match nearest {
+                Some(nearest) => self.add_tree(nearest, &mut scratch.buds, trees),
+                None => self.add_sky(*direction, trees),
             };
-            trees.roots.push(root);
+            trees.roots.push(Root {
+                first: first as u32,
+                count: (trees.nodes.len() - first) as u32,
+                cut,
+            });
         }
     }
 
     /// Nearest hits among the bodies of one worldline.
     fn meet(&self, worldline: usize, directions: &[DVec3], scratch: &mut Scratch) {
         let link = self.spacetime.link(worldline, self.scene.camera.worldline);
-        let origin = self.spacetime.camera_event(worldline).x;
+        let camera = self.spacetime.camera_event(worldline);
         boost_directions(link, directions, &mut scratch.boosted);
         for (nearest, &(direction, ratio)) in scratch.nearest.iter_mut().zip(&scratch.boosted) {
-            let ray = RestRay { origin, direction };
+            let ray = RestRay {
+                origin: camera.x,
+                direction,
+            };
             let path = self.spacetime.path_ratio(ratio);
             let reach = nearest.as_ref().map_or(f64::INFINITY, |n| n.s * path);
             if let Some(hit) = self.stage.nearest(worldline, &ray, reach) {
@@ -153,8 +114,8 @@ impl Tracer<'_> {
                 if nearest.as_ref().is_none_or(|n| s < n.s) {
                     *nearest = Some(Nearest {
                         s,
-                        worldline,
                         hit,
+                        time: camera.t - self.spacetime.delay(hit.t),
                         direction,
                         frequency_ratio: ratio,
                     });
@@ -163,17 +124,75 @@ impl Tracer<'_> {
         }
     }
 
-    fn add_surface(&self, nearest: &Nearest, trees: &mut ShadeTrees) -> u32 {
+    /// Adds the tree of a camera ray that meets a surface; returns what was cut off.
+    fn add_tree(&self, nearest: &Nearest, buds: &mut Buds, trees: &mut ShadeTrees) -> f64 {
+        let doppler = 1.0 / nearest.frequency_ratio;
+        let (place, material) = self.add_surface(nearest, None, doppler, trees);
+        match place {
+            Some(place) if self.bounces > 0 && material.passes_light_on() => {
+                grow::grow(self, &place, material, buds, trees)
+            }
+            _ => 0.0,
+        }
+    }
+
+    /// Adds a node and its lamps. Where light is reflected or passed on, the surface is worked out.
+    fn add_surface(
+        &self,
+        nearest: &Nearest,
+        branch: Option<Branch>,
+        doppler: f64,
+        trees: &mut ShadeTrees,
+    ) -> (Option<Place>, &Material) {
         let first_lamp = trees.lit.len() as u32;
-        direct::add_lamps(self, nearest, &mut trees.lit);
+        let hit = nearest.hit;
+        let number = self.scene.geometry.instances[hit.instance as usize].material;
+        let material = &self.scene.materials[number as usize];
+        let lamps = material.takes_lamps() && !self.scene.lights.is_empty();
+        let branches = self.bounces > 0 && material.passes_light_on();
+        let place = (lamps || branches)
+            .then(|| Place::new(self.scene, &hit, nearest.direction, nearest.time));
+        if let (Some(place), true) = (&place, lamps) {
+            direct::add_lamps(self, place, material, &mut trees.lit);
+        }
         trees.nodes.push(Node {
-            material: self.scene.geometry.instances[nearest.hit.instance as usize].material,
-            doppler: 1.0 / nearest.frequency_ratio,
-            s: nearest.s,
-            hit: nearest.hit,
-            lamps: trees.lit.len() as u32 - first_lamp,
-            first_lamp,
+            branch,
+            doppler,
+            seen: Seen::Surface(Surface {
+                material: number,
+                s: nearest.s,
+                time: nearest.time,
+                hit,
+                lamps: trees.lit.len() as u32 - first_lamp,
+                first_lamp,
+            }),
         });
-        trees.nodes.len() as u32 - 1
+        (place, material)
+    }
+
+    /// Adds the background that a camera ray sees.
+    fn add_sky(&self, direction: DVec3, trees: &mut ShadeTrees) -> f64 {
+        if let Some((seen, doppler)) = self.sky(self.scene.camera.worldline, direction) {
+            trees.nodes.push(Node {
+                branch: None,
+                doppler,
+                seen: Seen::Sky(seen),
+            });
+        }
+        0.0
+    }
+
+    /// The background in a unit direction of some rest frame: the direction on its own axes, and D
+    /// from it to that frame. None where it is black.
+    fn sky(&self, worldline: usize, direction: DVec3) -> Option<(DVec3, f64)> {
+        let background = &self.scene.background;
+        if background.is_black() {
+            return None;
+        }
+        let light = self
+            .spacetime
+            .link(background.worldline, worldline)
+            .light(-direction);
+        Some((-light.direction, 1.0 / light.frequency_ratio))
     }
 }

@@ -1,6 +1,6 @@
 //! How the worldlines of one image stand to each other: a transform for each pair, composed once.
 
-use crate::relativity::{Boost, Event, Light, Transform, Worldline};
+use crate::relativity::{Boost, Event, FourVector, Light, Transform, Worldline};
 use crate::scene::Scene;
 use glam::DVec3;
 
@@ -24,6 +24,13 @@ impl Link {
     pub fn event(&self, e: Event) -> Event {
         match self {
             Self::Finite(transform) | Self::Snapshot { transform, .. } => transform.event(e),
+        }
+    }
+
+    /// A difference of events in the other frame.
+    pub fn vector(&self, v: FourVector) -> FourVector {
+        match self {
+            Self::Finite(transform) | Self::Snapshot { transform, .. } => transform.vector(v),
         }
     }
 

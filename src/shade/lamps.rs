@@ -1,0 +1,136 @@
+//! Light of lamps on a surface, under the shifts of both.
+
+use super::bake::MaterialCurves;
+use super::shader::{ShadeScratch, Shader, add, finite};
+use crate::trace::Lit;
+
+impl Shader {
+    /// Light of the surface's lamps. Those that share the surface's shift are summed by emitter,
+    /// so that each table is read once.
+    pub(super) fn lamps_xyz(
+        &self,
+        lamps: &[Lit],
+        doppler: f64,
+        surface: &MaterialCurves,
+        scratch: &mut ShadeScratch,
+    ) -> [f64; 3] {
+        let mut sum = [0.0; 3];
+        let shift = self.received.shift(doppler);
+        scratch.comoving.clear();
+        scratch.comoving.resize(self.emitters.len(), [0.0; 2]);
+        for lit in lamps {
+            let (emitter, scale) = self.lamps[lit.light as usize];
+            let scale = scale * self.received.irradiance(lit.doppler);
+            let shares = [scale * lit.diffuse, scale * lit.highlight].map(finite);
+            let lamp_shift = self.received.shift(lit.doppler);
+            let shared = lamp_shift == 1.0 || self.emitters[emitter].curve.constant().is_some();
+            if shared && self.tabulated {
+                scratch.comoving[emitter][0] += shares[0];
+                scratch.comoving[emitter][1] += shares[1];
+            } else {
+                let xyz = self.lamp_xyz(
+                    surface,
+                    emitter,
+                    shares,
+                    [shift, shift * lamp_shift],
+                    scratch,
+                );
+                add(&mut sum, xyz, 1.0);
+            }
+        }
+        let ln_shift = shift.ln();
+        for (emitter, shares) in scratch.comoving.iter().enumerate() {
+            for (term, share) in surface.reflecting().zip(shares) {
+                if let Some(reflecting) = term
+                    && *share > 0.0
+                {
+                    add(
+                        &mut sum,
+                        reflecting.tables[emitter].at(ln_shift),
+                        finite(*share),
+                    );
+                }
+            }
+        }
+        let power = self.received.radiance(doppler);
+        sum.map(|v| v * power)
+    }
+
+    /// Light of one lamp that moves against the surface: two shifts, of reflectance and emitter.
+    fn lamp_xyz(
+        &self,
+        surface: &MaterialCurves,
+        emitter: usize,
+        shares: [f64; 2],
+        shifts: [f64; 2],
+        scratch: &mut ShadeScratch,
+    ) -> [f64; 3] {
+        let mut sum = [0.0; 3];
+        let [ln_surface, ln_lamp] = shifts.map(f64::ln);
+        let emitter = &self.emitters[emitter];
+        for (term, share) in surface.reflecting().zip(shares) {
+            let Some(reflecting) = term else { continue };
+            if share <= 0.0 {
+                continue;
+            }
+            let reflectance = &reflecting.reflectance;
+            let xyz = match (
+                reflectance.constant(),
+                reflectance.baked(),
+                emitter.curve.baked(),
+            ) {
+                (Some(constant), ..) if self.tabulated => {
+                    emitter.table.at(ln_lamp).map(|v| v * constant)
+                }
+                (None, Some(reflectance), Some(light)) => {
+                    let peak = reflectance.peak() * light.peak();
+                    let (one, other) = (reflectance.shifted(ln_surface), light.shifted(ln_lamp));
+                    self.sensor.xyz_of_product(&one, &other).map(|v| v * peak)
+                }
+                _ => {
+                    let [light, reflected] = scratch.buffers(self.sensor.axis().count());
+                    let factor = emitter.curve.read(shifts[1], light)
+                        * reflectance.read(shifts[0], reflected);
+                    for (reflected, light) in reflected.iter_mut().zip(&*light) {
+                        *reflected *= light;
+                    }
+                    self.sensor.xyz_of_shape(reflected).map(|v| v * factor)
+                }
+            };
+            add(&mut sum, xyz, share);
+        }
+        sum
+    }
+
+    /// Adds the spectral radiance that one lamp makes of a surface.
+    pub(super) fn add_lamp(
+        &self,
+        surface: &MaterialCurves,
+        doppler: f64,
+        lit: &Lit,
+        out: &mut [f64],
+        scratch: &mut ShadeScratch,
+    ) {
+        let (emitter, scale) = self.lamps[lit.light as usize];
+        let [light, reflected] = scratch.buffers(out.len());
+        let shift = self.received.shift(doppler);
+        let peak = self.emitters[emitter]
+            .curve
+            .read(shift * self.received.shift(lit.doppler), light);
+        let factor =
+            scale * peak * self.received.radiance(doppler) * self.received.irradiance(lit.doppler);
+        for (term, share) in [
+            (&surface.diffuse, lit.diffuse),
+            (&surface.highlight, lit.highlight),
+        ] {
+            if let Some(reflecting) = term
+                && share > 0.0
+            {
+                let factor = finite(factor * share * reflecting.reflectance.read(shift, reflected));
+                for ((out, light), reflected) in out.iter_mut().zip(&*light).zip(&*reflected) {
+                    *out += factor * f64::from(light * reflected);
+                }
+            }
+        }
+    }
+}

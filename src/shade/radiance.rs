@@ -1,0 +1,36 @@
+//! Spectral radiance along a ray, by what it comes from.
+
+/// Spectral radiance (W·m⁻²·sr⁻¹·nm⁻¹) at the sensor's wavelengths.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Radiance {
+    /// Reflected light, cold light of surfaces, and the background.
+    pub surface: Vec<f64>,
+    /// Thermal light.
+    pub thermal: Vec<f64>,
+}
+
+impl Radiance {
+    pub(super) fn new(count: usize) -> Self {
+        let mut dark = Self::default();
+        dark.clear(count);
+        dark
+    }
+
+    /// Makes it dark at `count` wavelengths, keeping the memory.
+    pub(super) fn clear(&mut self, count: usize) {
+        for part in self.parts_mut() {
+            part.clear();
+            part.resize(count, 0.0);
+        }
+    }
+
+    pub(super) fn parts_mut(&mut self) -> [&mut Vec<f64>; 2] {
+        [&mut self.surface, &mut self.thermal]
+    }
+
+    /// All of it.
+    pub fn total(&self) -> Vec<f64> {
+        let parts = self.surface.iter().zip(&self.thermal);
+        parts.map(|(a, b)| (a + b).min(f64::MAX)).collect()
+    }
+}

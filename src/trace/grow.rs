@@ -1,0 +1,275 @@
+//! Shade trees beyond their first surface: what is seen in mirrors and through glass.
+//!
+//! The branch that may carry the most light is followed first, until none is left that carries
+//! more than the cut-off, is not too deep, and fits the tree. So what is left out is the least,
+//! and its share is known.
+
+use super::flight::Flight;
+use super::optics::{Boundary, boundary, reflected};
+use super::surface::Place;
+use super::tree::{Branch, Node, Seen, Term};
+use super::{Nearest, ShadeTrees, Tracer};
+use crate::scene::Material;
+use glam::DVec3;
+use std::cmp::Ordering;
+use std::collections::BinaryHeap;
+
+/// Most nodes of one tree: what two facing mirrors and glass between them may fill.
+const MOST_NODES: u32 = 1000;
+
+/// A branch that is still to be followed.
+struct Bud {
+    /// At most this share of the light that arrives by it reaches the camera.
+    bound: f64,
+    /// How many were found before it: of equal ones the first is followed first.
+    number: u32,
+    depth: u32,
+    flight: Flight,
+    parent: u32,
+    term: Term,
+    share: f64,
+    /// D from the surface it leaves to the camera.
+    doppler: f64,
+}
+
+/// Buds of one tree.
+#[derive(Default)]
+pub(super) struct Buds {
+    waiting: BinaryHeap<Bud>,
+    found: u32,
+}
+
+/// Follows the branches of the surface at `place`, the tree's first node. Returns the share of
+/// light that was cut off.
+pub(super) fn grow(
+    tracer: &Tracer<'_>,
+    place: &Place,
+    material: &Material,
+    buds: &mut Buds,
+    trees: &mut ShadeTrees,
+) -> f64 {
+    let first = trees.nodes.len() - 1;
+    let mut cut = 0.0;
+    let camera = Stem {
+        bound: 1.0,
+        depth: 0,
+        node: 0,
+        doppler: trees.nodes[first].doppler,
+        slowness: 1.0,
+    };
+    cut += buds.sprout(tracer, place, material, &camera);
+    while let Some(bud) = buds.waiting.pop() {
+        let node = (trees.nodes.len() - first) as u32;
+        if node >= MOST_NODES {
+            cut += bud.bound;
+            continue;
+        }
+        let Some(nearest) = tracer.nearest(&bud.flight) else {
+            add_sky(tracer, &bud, trees);
+            continue;
+        };
+        let doppler = bud.doppler / nearest.frequency_ratio;
+        let branch = Branch {
+            parent: bud.parent,
+            term: bud.term,
+            share: bud.share,
+            doppler: 1.0 / nearest.frequency_ratio,
+        };
+        let (place, material) = tracer.add_surface(&nearest, Some(branch), doppler, trees);
+        if let Some(place) = place {
+            let stem = Stem {
+                bound: bud.bound,
+                depth: bud.depth,
+                node,
+                doppler,
+                slowness: if place.worldline == bud.flight.worldline {
+                    bud.flight.slowness
+                } else {
+                    1.0
+                },
+            };
+            cut += buds.sprout(tracer, &place, material, &stem);
+        }
+    }
+    buds.found = 0;
+    cut
+}
+
+fn add_sky(tracer: &Tracer<'_>, bud: &Bud, trees: &mut ShadeTrees) {
+    if let Some((direction, to_surface)) = tracer.sky(bud.flight.worldline, bud.flight.direction) {
+        trees.nodes.push(Node {
+            branch: Some(Branch {
+                parent: bud.parent,
+                term: bud.term,
+                share: bud.share,
+                doppler: to_surface,
+            }),
+            doppler: bud.doppler * to_surface,
+            seen: Seen::Sky(direction),
+        });
+    }
+}
+
+/// Where branches leave from.
+struct Stem {
+    bound: f64,
+    depth: u32,
+    node: u32,
+    doppler: f64,
+    /// Of the medium in front of the surface.
+    slowness: f64,
+}
+
+impl Buds {
+    /// Adds the branches of a surface that are worth following; returns the share of the others.
+    fn sprout(
+        &mut self,
+        tracer: &Tracer<'_>,
+        place: &Place,
+        material: &Material,
+        stem: &Stem,
+    ) -> f64 {
+        let mut cut = 0.0;
+        for ray in passed_on(place, material, stem.slowness) {
+            let bound = stem.bound * ray.most;
+            if bound <= tracer.cutoff || stem.depth >= tracer.bounces {
+                cut += bound;
+                continue;
+            }
+            self.waiting.push(Bud {
+                bound,
+                number: self.found,
+                depth: stem.depth + 1,
+                flight: Flight {
+                    worldline: place.worldline,
+                    start: place.beside(ray.beyond),
+                    direction: ray.direction,
+                    slowness: ray.slowness,
+                },
+                parent: stem.node,
+                term: ray.term,
+                share: ray.share,
+                doppler: stem.doppler,
+            });
+            self.found += 1;
+        }
+        cut
+    }
+}
+
+/// Light that a surface passes on.
+struct Passed {
+    term: Term,
+    /// Share that the term is given.
+    share: f64,
+    /// The share times the term's reflectance or transmittance at its highest.
+    most: f64,
+    direction: DVec3,
+    /// Whether it comes from the other side of the surface.
+    beyond: bool,
+    slowness: f64,
+}
+
+/// The branches of a surface: by Fresnel's shares where it has an index of refraction. Where
+/// reflection is total, the refraction's own light is what is reflected.
+fn passed_on(place: &Place, material: &Material, slowness: f64) -> impl Iterator<Item = Passed> {
+    let d = place.incoming;
+    let flat = place.point.flat_normal;
+    // Interpolated normals may turn away from the viewer, or send light into the surface.
+    let usable = |n: DVec3| d.dot(n) < 0.0 && reflected(d, n).dot(flat) > 0.0;
+    let normal = if usable(place.point.normal) {
+        place.point.normal
+    } else {
+        flat
+    };
+    let mirrored = |term, share, most| Passed {
+        term,
+        share,
+        most: share * most,
+        direction: reflected(d, normal),
+        beyond: false,
+        slowness,
+    };
+    let mirror = material.mirror.as_ref().map(|mirror| mirror.most());
+    let Some(glass) = &material.refraction else {
+        return [mirror.map(|most| mirrored(Term::Mirror, 1.0, most)), None]
+            .into_iter()
+            .flatten();
+    };
+    let most = glass.transmittance.most();
+    let (ratio, slowness_beyond) = if place.front {
+        (1.0 / glass.ior, glass.ior)
+    } else {
+        (glass.ior, 1.0)
+    };
+    match boundary(d, normal, ratio) {
+        Boundary::Total => [Some(mirrored(Term::Refraction, 1.0, most)), None],
+        Boundary::Passing {
+            direction,
+            reflected,
+        } => {
+            let through = Passed {
+                term: Term::Refraction,
+                share: 1.0 - reflected,
+                most: (1.0 - reflected) * most,
+                direction,
+                beyond: true,
+                slowness: slowness_beyond,
+            };
+            [
+                Some(through),
+                mirror.map(|most| mirrored(Term::Mirror, reflected, most)),
+            ]
+        }
+    }
+    .into_iter()
+    .flatten()
+}
+
+impl Ord for Bud {
+    fn cmp(&self, other: &Self) -> Ordering {
+        self.bound
+            .total_cmp(&other.bound)
+            .then(other.number.cmp(&self.number))
+    }
+}
+
+impl PartialOrd for Bud {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+impl PartialEq for Bud {
+    fn eq(&self, other: &Self) -> bool {
+        self.cmp(other) == Ordering::Equal
+    }
+}
+
+impl Eq for Bud {}
+
+impl Tracer<'_> {
+    /// What a ray from a surface meets first.
+    fn nearest(&self, flight: &Flight) -> Option<Nearest> {
+        let mut best: Option<Nearest> = None;
+        for worldline in self.stage.worldlines() {
+            let Some(rest) = flight.among(worldline, self.spacetime) else {
+                continue;
+            };
+            let reach = best.as_ref().map_or(f64::INFINITY, |n| n.s * rest.stretch);
+            if let Some(hit) = self.stage.nearest(worldline, &rest.ray, reach) {
+                let s = hit.t / rest.stretch;
+                if best.as_ref().is_none_or(|n| s < n.s) {
+                    best = Some(Nearest {
+                        s,
+                        hit,
+                        time: rest.time_at(hit.t, self.spacetime),
+                        direction: rest.ray.direction,
+                        frequency_ratio: rest.frequency_ratio,
+                    });
+                }
+            }
+        }
+        best
+    }
+}
