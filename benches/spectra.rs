@@ -32,6 +32,7 @@ fn shade(bencher: Bencher<'_, '_>, spectra: &str, wavelengths: u32, lamp_doppler
         instance: 0,
         triangle: 0,
         weights: [1.0, 0.0, 0.0],
+        front: true,
     };
     let node = Node {
         branch: None,

@@ -1,10 +1,11 @@
 //! What the centre of one pixel sees: the event, the Doppler factor, the curve, the colour.
 
+use crate::relativity::Event;
 use crate::render::{LabPath, View};
 use crate::scene::Scene;
 use crate::shot::Shot;
 use crate::spectrum::color_space::RGB_FROM_XYZ;
-use crate::trace::{Node, Scratch, Seen, ShadeTrees, Surface};
+use crate::trace::{Branch, Node, Scratch, Seen, ShadeTrees, Surface, Term};
 use glam::DVec3;
 use serde::Serialize;
 
@@ -17,17 +18,43 @@ pub struct Probe {
     pub pixel: [u32; 2],
     /// The first surface; None where the background is seen.
     pub hit: Option<ProbeHit>,
+    /// Everything that adds to what is seen: the first surface, and what is seen in mirrors and
+    /// through glass, each after what it is seen in.
+    pub chain: Vec<ProbeNode>,
+    /// Share of mirrored and refracted light that was not followed; the error is at most this times
+    /// what arrives there.
+    pub cut: f64,
     /// The sensor's wavelengths, nm, in the camera's rest frame.
     pub wavelengths: Vec<f64>,
     /// Spectral radiance there, W·m⁻²·sr⁻¹·nm⁻¹.
     pub radiance: Vec<f64>,
+    /// Its part that surfaces reflect or emit cold, and the background.
+    pub surface: Vec<f64>,
+    /// Its thermal part.
+    pub thermal: Vec<f64>,
     /// Of that radiance, cd/m².
     pub xyz: [f64; 3],
     /// Linear sRGB after exposure.
     pub rgb: [f64; 3],
 }
 
-/// The first surface on a camera ray.
+/// A node of the pixel's shade tree.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct ProbeNode {
+    /// Place in the chain of what it is seen in; None if the camera sees it directly.
+    pub parent: Option<u32>,
+    /// What of that material passes its light on: "mirror" or "refraction".
+    pub by: Option<&'static str>,
+    /// Share of its light that goes on: Fresnel's times the term's weight, 1 if seen directly.
+    pub coefficient: f64,
+    /// D from here to its parent, or to the camera.
+    pub doppler: f64,
+    /// The surface, its `distance` that to its parent and its `doppler` that to the camera; None
+    /// if it is the background.
+    pub hit: Option<ProbeHit>,
+}
+
+/// A surface that sends light to the camera.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct ProbeHit {
     /// Its model.
@@ -70,58 +97,128 @@ pub fn probe(
     view.tracer()
         .trace(&[direction], &mut Scratch::default(), &mut trees);
     let root = trees.roots[0];
-    let radiance = view.shader().radiance(&trees, root).total();
+    let chain = chain(view, scene, trees.nodes_of(root), direction);
+    let light = view.shader().radiance(&trees, root);
+    let radiance = light.total();
     let xyz = view.shader().xyz_of(&radiance);
     let gain = exposure.exp2() / 100.0;
     let rgb = RGB_FROM_XYZ.map(|row| row.iter().zip(xyz).map(|(m, v)| m * v).sum::<f64>() * gain);
-    let hit = match trees.nodes_of(root).first() {
-        Some(Node {
-            seen: Seen::Surface(surface),
-            doppler,
-            ..
-        }) => Some(hit(view, scene, surface, *doppler, direction)),
-        _ => None,
-    };
     Probe {
         frame,
         pixel,
-        hit,
+        hit: chain.first().and_then(|node| node.hit.clone()),
+        chain,
+        cut: root.cut,
         wavelengths: view.shader().wavelengths_nm(),
         radiance,
+        surface: light.surface,
+        thermal: light.thermal,
         xyz,
         rgb,
     }
 }
 
-fn hit(
+fn chain(view: &View<'_>, scene: &Scene, nodes: &[Node], direction: DVec3) -> Vec<ProbeNode> {
+    let mut chain: Vec<ProbeNode> = Vec::new();
+    for node in nodes {
+        let before = node
+            .branch
+            .map(|branch| chain[branch.parent as usize].clone());
+        let hit = match (&node.seen, &before) {
+            (Seen::Sky(_), _) => None,
+            (Seen::Surface(surface), None) => {
+                Some(first_hit(view, scene, surface, node.doppler, direction))
+            }
+            (Seen::Surface(surface), Some(before)) => {
+                let to = before.hit.as_ref().map(|hit| &hit.event);
+                Some(further_hit(view, scene, surface, node.doppler, to))
+            }
+        };
+        chain.push(match node.branch {
+            None => ProbeNode {
+                parent: None,
+                by: None,
+                coefficient: 1.0,
+                doppler: node.doppler,
+                hit,
+            },
+            Some(branch) => ProbeNode {
+                parent: Some(branch.parent),
+                by: Some(match branch.term {
+                    Term::Mirror => "mirror",
+                    Term::Refraction => "refraction",
+                }),
+                coefficient: branch.share * weight(scene, nodes, &branch),
+                doppler: branch.doppler,
+                hit,
+            },
+        });
+    }
+    chain
+}
+
+/// Weight of the term that a branch leaves by.
+fn weight(scene: &Scene, nodes: &[Node], branch: &Branch) -> f64 {
+    let Seen::Surface(surface) = nodes[branch.parent as usize].seen else {
+        return 0.0;
+    };
+    let material = &scene.materials[surface.material as usize];
+    let term = match branch.term {
+        Term::Mirror => material.mirror.as_ref(),
+        Term::Refraction => material.refraction.as_ref().map(|r| &r.transmittance),
+    };
+    term.map_or(0.0, |term| term.weight)
+}
+
+fn first_hit(
     view: &View<'_>,
     scene: &Scene,
     surface: &Surface,
     doppler: f64,
     direction: DVec3,
 ) -> ProbeHit {
-    let instance = &scene.geometry.instances[surface.hit.instance as usize];
-    let worldline = instance.worldline as usize;
-    let point = scene.geometry.surface_point(
-        surface.hit.instance,
-        surface.hit.triangle,
-        surface.hit.weights,
-    );
-    let arriving = view
-        .spacetime()
-        .link(worldline, scene.camera.worldline)
-        .light(-direction);
-    let towards = arriving.direction.dot(point.flat_normal).signum();
     let path = LabPath::new(view, surface, direction);
+    hit(scene, surface, doppler, path.emission, path.distance)
+}
+
+/// A surface that is seen in another one, at the event `to`.
+fn further_hit(
+    view: &View<'_>,
+    scene: &Scene,
+    surface: &Surface,
+    doppler: f64,
+    to: Option<&ProbeEvent>,
+) -> ProbeHit {
+    const LAB: usize = 0;
+    let own = &surface.hit;
+    let instance = &scene.geometry.instances[own.instance as usize];
+    let point = scene
+        .geometry
+        .surface_point(own.instance, own.triangle, own.weights);
+    let event = view
+        .spacetime()
+        .link(LAB, instance.worldline as usize)
+        .event(Event::new(surface.time, point.position));
+    let distance = to.map_or(0.0, |to| (DVec3::from(to.x) - event.x).length());
+    hit(scene, surface, doppler, event, distance)
+}
+
+fn hit(scene: &Scene, surface: &Surface, doppler: f64, event: Event, distance: f64) -> ProbeHit {
+    let own = &surface.hit;
+    let instance = &scene.geometry.instances[own.instance as usize];
+    let point = scene
+        .geometry
+        .surface_point(own.instance, own.triangle, own.weights);
+    let towards = if own.front { 1.0 } else { -1.0 };
     ProbeHit {
         model: scene.model_names[instance.model as usize].clone(),
         material: scene.materials[instance.material as usize].name.clone(),
-        worldline: scene.worldline_names[worldline].clone(),
+        worldline: scene.worldline_names[instance.worldline as usize].clone(),
         event: ProbeEvent {
-            t: path.emission.t,
-            x: path.emission.x.to_array(),
+            t: event.t,
+            x: event.x.to_array(),
         },
-        distance: path.distance,
+        distance,
         normal: (point.normal * towards).to_array(),
         doppler,
     }

@@ -112,6 +112,7 @@ fn trees(doppler: f64, lamp_doppler: f64) -> ShadeTrees {
         instance: 0,
         triangle: 0,
         weights: [1.0, 0.0, 0.0],
+        front: true,
     };
     let surface = Surface {
         material: 0,

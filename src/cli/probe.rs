@@ -1,7 +1,7 @@
 //! `restframe probe`.
 
 use super::{Failed, ProbeArguments, mistaken, misused, print, print_json};
-use crate::probe::{Probe, probe};
+use crate::probe::{Probe, ProbeNode, probe};
 use crate::queue::Prepared;
 use crate::render::{View, motion_mistake, rows, spliced};
 use crate::scene::Scene;
@@ -68,6 +68,22 @@ fn described(probe: &Probe) -> String {
             lines.push(format!("  Doppler     D = {:.12e}", hit.doppler));
         }
     }
+    if probe.chain.len() > 1 {
+        lines.push("  by mirrors and glass:".to_owned());
+        lines.extend(
+            probe
+                .chain
+                .iter()
+                .enumerate()
+                .map(|(i, node)| link(i, node)),
+        );
+    }
+    if probe.cut > 0.0 {
+        lines.push(format!(
+            "  not followed {:.3e} of the light that arrives there",
+            probe.cut
+        ));
+    }
     let peak = probe
         .wavelengths
         .iter()
@@ -84,4 +100,20 @@ fn described(probe: &Probe) -> String {
     lines.push(format!("  XYZ         {bx:.6e} {by:.6e} {bz:.6e} cd/m2"));
     lines.push(format!("  linear sRGB {r:.6} {g:.6} {b:.6} after exposure"));
     lines.join("\n")
+}
+
+/// A line on one node of the shade tree.
+fn link(index: usize, node: &ProbeNode) -> String {
+    let what = match &node.hit {
+        Some(hit) => format!("\"{}\" on \"{}\"", hit.model, hit.worldline),
+        None => "the background".to_owned(),
+    };
+    let how = match (node.parent, node.by) {
+        (Some(parent), Some(by)) => format!(
+            "by {by} of {parent}: coefficient {:.6}, D = {:.12e} to it",
+            node.coefficient, node.doppler
+        ),
+        _ => "seen directly".to_owned(),
+    };
+    format!("  {index:>3}  {what}, {how}")
 }

@@ -90,6 +90,7 @@ impl MeshTree {
                 instance: member.instance,
                 triangle: self.numbers[place],
                 weights: crossing.weights,
+                front: crossing.front,
             };
             if t > reach || best.is_some_and(|best| !hit.precedes(&best)) {
                 return f64::INFINITY;

@@ -33,6 +33,8 @@ pub struct BodyHit {
     pub triangle: u32,
     /// Barycentric weights of the triangle's vertices.
     pub weights: [f64; 3],
+    /// Whether the mesh's front is seen.
+    pub front: bool,
 }
 
 /// All bodies, ready for rays.

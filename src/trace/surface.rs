@@ -23,8 +23,7 @@ impl Place {
     pub(super) fn new(scene: &Scene, hit: &BodyHit, incoming: DVec3, time: f64) -> Self {
         let geometry = &scene.geometry;
         let mut point = geometry.surface_point(hit.instance, hit.triangle, hit.weights);
-        let front = point.flat_normal.dot(incoming) <= 0.0;
-        if !front {
+        if !hit.front {
             point.flat_normal = -point.flat_normal;
             point.normal = -point.normal;
             // Seen from behind, the smooth surface is hollow.
@@ -35,7 +34,7 @@ impl Place {
             event: Event::new(time, point.position),
             point,
             incoming,
-            front,
+            front: hit.front,
         }
     }
 
