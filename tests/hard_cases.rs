@@ -22,6 +22,8 @@ mod geometry;
 mod lamps;
 #[path = "hard_cases/light.rs"]
 mod light;
+#[path = "hard_cases/mirrors.rs"]
+mod mirrors;
 #[path = "hard_cases/pipeline.rs"]
 mod pipeline;
 #[path = "hard_cases/scene.rs"]
@@ -34,7 +36,8 @@ fn sections() -> Vec<(&'static str, &'static [card::Case])> {
         ("B. Doppler factor and aberration", doppler::CASES),
         ("C. Radiometry and spectra", light::CASES),
         ("D. Geometry and visibility", geometry::CASES),
-        ("E. Lamps, mirrors, glass", lamps::CASES),
+        ("E. Lamps and shadows", lamps::CASES),
+        ("E. Mirrors and glass", mirrors::CASES),
         ("G. The program as a whole", pipeline::CASES),
     ]
 }

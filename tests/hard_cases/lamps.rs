@@ -1,3 +1,3 @@
-//! E. Lamps, mirrors, glass.
+//! E. Lamps and shadows.
 
 cases! {}
