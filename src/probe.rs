@@ -18,24 +18,24 @@ pub struct Probe {
     pub pixel: [u32; 2],
     /// The first surface; None where the background is seen.
     pub hit: Option<ProbeHit>,
+    /// The sensor's wavelengths, nm, in the camera's rest frame.
+    pub wavelengths: Vec<f64>,
+    /// Spectral radiance there, W·m⁻²·sr⁻¹·nm⁻¹.
+    pub radiance: Vec<f64>,
+    /// Of that radiance, cd/m².
+    pub xyz: [f64; 3],
+    /// Linear sRGB after exposure.
+    pub rgb: [f64; 3],
     /// Everything that adds to what is seen: the first surface, and what is seen in mirrors and
     /// through glass, each after what it is seen in.
     pub chain: Vec<ProbeNode>,
     /// Share of mirrored and refracted light that was not followed; the error is at most this times
     /// what arrives there.
     pub cut: f64,
-    /// The sensor's wavelengths, nm, in the camera's rest frame.
-    pub wavelengths: Vec<f64>,
-    /// Spectral radiance there, W·m⁻²·sr⁻¹·nm⁻¹.
-    pub radiance: Vec<f64>,
-    /// Its part that surfaces reflect or emit cold, and the background.
+    /// The part of `radiance` that surfaces reflect or emit cold, and the background.
     pub surface: Vec<f64>,
     /// Its thermal part.
     pub thermal: Vec<f64>,
-    /// Of that radiance, cd/m².
-    pub xyz: [f64; 3],
-    /// Linear sRGB after exposure.
-    pub rgb: [f64; 3],
 }
 
 /// A node of the pixel's shade tree.

@@ -374,9 +374,24 @@ fn probe_answers_in_the_shape_of_the_contract() {
             "wavelengths",
             "radiance",
             "xyz",
-            "rgb"
+            "rgb",
+            "chain",
+            "cut",
+            "surface",
+            "thermal"
         ]
     );
+    let seen = &answer["chain"][0];
+    assert_eq!(
+        keys(seen),
+        ["parent", "by", "coefficient", "doppler", "hit"]
+    );
+    assert_eq!(seen["hit"], answer["hit"]);
+    assert_eq!(seen["doppler"], answer["hit"]["doppler"]);
+    for (i, total) in answer["radiance"].as_array().unwrap().iter().enumerate() {
+        let parts = ["surface", "thermal"].map(|part| answer[part][i].as_f64().unwrap());
+        assert_eq!(total.as_f64().unwrap(), parts[0] + parts[1]);
+    }
     assert_eq!(answer["frame"], 3);
     assert_eq!(answer["pixel"], serde_json::json!([27, 13]));
     let hit = &answer["hit"];
