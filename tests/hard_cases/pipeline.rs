@@ -168,7 +168,7 @@ fn at_speed(scene: &str, lorentz_factor: &str, direction: &str) -> Set {
     Set::new(&scene.replace("VELOCITY", &velocity(lorentz_factor, direction)))
 }
 
-/// What is wrong with a film, its layers and its files: nothing, if it is empty. In the scenes below
+/// What is wrong with a film, its layers and its files: nothing, if it is empty. In G4's scenes
 /// no light is beyond f32, so none may be clamped; C12 holds what happens to light that is.
 fn faults(film: &Film) -> Vec<&'static str> {
     let values = film.xyz.as_flattened();
