@@ -16,6 +16,8 @@ mod card;
 mod boosts;
 #[path = "hard_cases/doppler.rs"]
 mod doppler;
+#[path = "hard_cases/files.rs"]
+mod files;
 #[path = "hard_cases/geometry.rs"]
 mod geometry;
 #[path = "hard_cases/lamps.rs"]

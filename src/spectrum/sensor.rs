@@ -1,6 +1,6 @@
 //! From spectral radiance at the sensor's wavelengths to XYZ.
 
-use super::cie::{EFFICACY, xyz_bar};
+use super::cie::{EFFICACY, RANGE_NM, xyz_bar};
 use super::log_grid::{LogAxis, Shifted};
 
 /// Steps of the quadrature that makes the weights, nm.
@@ -18,15 +18,17 @@ pub struct Sensor {
 impl Sensor {
     /// The CIE 1931 2° observer over an axis. The weight of a wavelength is the integral of the
     /// colour-matching function over the cubic (Catmull–Rom in ln λ) that has value 1 there and 0
-    /// at the others, so that sums are exact for spectra that are cubics between wavelengths.
+    /// at the others, so that sums are exact for spectra that are cubics between wavelengths. Some
+    /// weights at the foot of a function are below 0 for that; no sum is, since no light's XYZ is.
     pub fn cie1931(axis: LogAxis) -> Self {
         let count = axis.count() as i64;
         let mut weights = vec![[0.0; 3]; axis.count()];
+        // Beyond the table the eye sees nothing: a window of radio waves takes no steps there.
         let ends = [
-            axis.wavelength_nm(-0.5),
-            axis.wavelength_nm(count as f64 - 0.5),
+            axis.wavelength_nm(-0.5).max(RANGE_NM[0]),
+            axis.wavelength_nm(count as f64 - 0.5).min(RANGE_NM[1]),
         ];
-        let steps = ((ends[1] - ends[0]) / STEP_NM).ceil() as usize;
+        let steps = ((ends[1] - ends[0]) / STEP_NM).ceil().max(0.0) as usize;
         let step = (ends[1] - ends[0]) / steps as f64;
         for i in 0..steps {
             let nm = ends[0] + (i as f64 + 0.5) * step;
@@ -66,7 +68,7 @@ impl Sensor {
                 *sum += weight * value;
             }
         }
-        sum
+        sum.map(|v| v.max(0.0))
     }
 
     /// XYZ of a shape: values of order 1, as many as the axis has.
@@ -147,7 +149,8 @@ impl Sums {
 
     #[inline(always)]
     fn total(&self) -> [f64; 3] {
-        self.0.map(|lanes| f64::from(lanes.iter().sum::<f32>()))
+        self.0
+            .map(|lanes| f64::from(lanes.iter().sum::<f32>()).max(0.0))
     }
 }
 
@@ -194,6 +197,30 @@ mod tests {
                 (flat[c] / exact[c] - 1.0).abs() < 1e-5,
                 "{flat:?} {exact:?}"
             );
+        }
+    }
+
+    /// A line at the foot of a colour-matching function lies on weights below 0.
+    #[test]
+    fn no_light_has_a_tristimulus_value_below_zero() {
+        for count in [8, 20, 84] {
+            let sensor = Sensor::cie1931(LogAxis::new([360.0, 830.0], count));
+            for j in 0..count {
+                let mut line = vec![0.0f32; count];
+                line[j] = 1.0;
+                let exact: Vec<f64> = line.iter().map(|v| f64::from(*v)).collect();
+                let sums = [sensor.xyz(&exact), sensor.xyz_of_shape(&line)];
+                assert!(sums.as_flattened().iter().all(|v| *v >= 0.0), "{count} {j}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_window_without_visible_light_is_black_and_soon_made() {
+        for window in [[1e-3, 1e-2], [1e9, 1e12], [831.0, 1e30], [1.0, 1e9]] {
+            let sensor = Sensor::cie1931(LogAxis::new(window, 84));
+            let lit = sensor.xyz(&[1.0; 84])[1] > 0.0;
+            assert_eq!(lit, window[0] < 360.0 && window[1] > 830.0, "{window:?}");
         }
     }
 
