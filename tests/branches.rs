@@ -1,0 +1,226 @@
+//! Mirrors and glass as an author sets them: how deep, how faint, what is left out, and that short
+//! cuts change nothing.
+#![expect(
+    clippy::unwrap_used,
+    reason = "a test that cannot be set up has failed"
+)]
+
+use restframe::probe::{Probe, probe};
+use restframe::queue::Prepared;
+use restframe::render::{View, rows, spliced};
+use restframe::scene::Scene;
+use restframe::trace::Stage;
+use std::path::Path;
+
+const WALL: &str = "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nf 1 2 3 4\n";
+
+/// What a pixel of a 9 x 9 image sees; `text` is the rest of the shot.
+fn sees(text: &str, pixel: [u32; 2]) -> Probe {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("wall.obj"), WALL).unwrap();
+    std::fs::write(folder.path().join("ball.gltf"), one_sided_ball()).unwrap();
+    let assets = Path::new(env!("CARGO_MANIFEST_DIR")).join("assets");
+    std::fs::copy(assets.join("sphere.obj"), folder.path().join("ball.obj")).unwrap();
+    let path = folder.path().join("shot.toml");
+    std::fs::write(
+        &path,
+        format!("[image]\nsize = [9, 9]\n[sensor]\nexposure = 0\n{text}"),
+    )
+    .unwrap();
+    let prepared = Prepared::read(&path).unwrap();
+    let shot = &prepared.shot;
+    let scene = Scene::resolve(shot, &prepared.library, 1, None).unwrap();
+    let stage = Stage::build(&scene.geometry, None);
+    let splice = shot.splice.iter().find(|s| rows(s, 9).contains(&pixel[1]));
+    let effects = splice.map_or(shot.effects, |splice| spliced(&shot.effects, splice));
+    let view = View::new(shot, 1, &effects, &scene, &stage).unwrap();
+    probe(shot, 1, pixel, &view, &scene, 0.0)
+}
+
+/// An octahedron of which only the front is there, as Blender exports with backface culling.
+fn one_sided_ball() -> String {
+    let mut bytes = Vec::new();
+    let corners: [[f32; 3]; 6] = [
+        [1.0, 0.0, 0.0],
+        [-1.0, 0.0, 0.0],
+        [0.0, 1.0, 0.0],
+        [0.0, -1.0, 0.0],
+        [0.0, 0.0, 1.0],
+        [0.0, 0.0, -1.0],
+    ];
+    corners
+        .iter()
+        .flatten()
+        .for_each(|x| bytes.extend(x.to_le_bytes()));
+    let faces: [[u16; 3]; 8] = [
+        [0, 2, 4],
+        [2, 1, 4],
+        [1, 3, 4],
+        [3, 0, 4],
+        [2, 0, 5],
+        [1, 2, 5],
+        [3, 1, 5],
+        [0, 3, 5],
+    ];
+    faces
+        .iter()
+        .flatten()
+        .for_each(|i| bytes.extend(i.to_le_bytes()));
+    let data = base64::encode(&bytes);
+    format!(
+        r#"{{"asset":{{"version":"2.0"}},"scene":0,"scenes":[{{"nodes":[0]}}],"nodes":[{{"mesh":0}}],
+        "meshes":[{{"primitives":[{{"attributes":{{"POSITION":0}},"indices":1,"material":0}}]}}],
+        "materials":[{{"name":"glass","doubleSided":false}}],
+        "buffers":[{{"byteLength":120,"uri":"data:application/octet-stream;base64,{data}"}}],
+        "bufferViews":[{{"buffer":0,"byteLength":72}},{{"buffer":0,"byteOffset":72,"byteLength":48}}],
+        "accessors":[{{"bufferView":0,"componentType":5126,"count":6,"type":"VEC3","min":[-1,-1,-1],"max":[1,1,1]}},
+        {{"bufferView":1,"componentType":5123,"count":24,"type":"SCALAR"}}]}}"#
+    )
+}
+
+/// A glass ball in a sky of radiance 1.
+fn furnace(cutoff: f64, bounces: u32) -> String {
+    format!(
+        "[accuracy]\ncutoff = {cutoff:e}\n[effects]\nbounces = {bounces}\n\
+         [[model]]\nfile = \"ball.obj\"\nmaterial = \"glass\"\n\
+         [material.glass]\nmirror = {{ spectrum = 1.0 }}\nrefraction = {{ spectrum = 1.0 }}\n\
+         [background]\nspectrum = 1.0\n[camera]\nposition = [0, 0, 3]\nhfov = 30\n"
+    )
+}
+
+#[test]
+fn what_is_left_out_is_what_the_answer_says() {
+    for (cutoff, bounces) in [
+        (1e-1, 64),
+        (1e-2, 64),
+        (1e-3, 64),
+        (1e-4, 64),
+        (1e-4, 1),
+        (1e-4, 3),
+    ] {
+        let mut most: f64 = 0.0;
+        for x in 0..9 {
+            let seen = sees(&furnace(cutoff, bounces), [x, 3]);
+            for value in &seen.radiance {
+                // f32 spectra: 6e-8 a factor, of which a path has 64 at most.
+                assert!(
+                    (value + seen.cut - 1.0).abs() < 4e-6,
+                    "{cutoff} {bounces} {x}: {value} {}",
+                    seen.cut
+                );
+            }
+            most = most.max(seen.cut);
+        }
+        assert!(most > 0.0, "{cutoff} {bounces}");
+    }
+}
+
+#[test]
+fn a_smaller_cutoff_leaves_out_less() {
+    let cut = [1e-1, 1e-2, 1e-3, 1e-4, 1e-5].map(|cutoff| sees(&furnace(cutoff, 64), [6, 3]).cut);
+    assert!(cut.windows(2).all(|pair| pair[1] <= pair[0]), "{cut:?}");
+    assert!(cut[4] < 1e-4 * cut[0], "{cut:?}");
+}
+
+/// Two facing mirrors, one of them half glass, and a camera between them.
+fn hall(bounces: &str) -> String {
+    format!(
+        "{bounces}\n[accuracy]\ncutoff = 0\n\
+         [[model]]\nfile = \"wall.obj\"\nmaterial = \"both\"\nscale = 9\ntranslate = [0, 0, -2]\n\
+         [[model]]\nfile = \"wall.obj\"\nmaterial = \"both\"\nscale = 9\ntranslate = [0, 0, 2]\n\
+         [material.both]\nmirror = {{ spectrum = 1.0 }}\nrefraction = {{ spectrum = 1.0, ior = 3 }}\n\
+         [background]\nspectrum = 1.0\n[camera]\n"
+    )
+}
+
+#[test]
+fn a_tree_stays_within_its_size_however_it_branches() {
+    let seen = sees(&hall("[effects]\nbounces = 64"), [4, 4]);
+    assert!(seen.chain.len() <= 1000, "{}", seen.chain.len());
+    assert!(seen.cut < 1e-3, "{}", seen.cut);
+}
+
+#[test]
+fn bounces_count_the_surfaces_on_the_way_and_none_means_off() {
+    let mirror = "[effects]\nbounces = BOUNCES\n\
+         [[model]]\nname = \"one\"\nfile = \"wall.obj\"\nmaterial = \"mirror\"\nscale = 9\ntranslate = [0, 0, -2]\n\
+         [[model]]\nname = \"two\"\nfile = \"wall.obj\"\nmaterial = \"mirror\"\nscale = 9\ntranslate = [0, 0, 2]\n\
+         [material.mirror]\nmirror = { weight = 0.5, spectrum = 1.0 }\nemission = { scale = 1.0, spectrum = 1.0 }\n[camera]\n";
+    for (bounces, radiance, cut) in [(0, 1.0, 0.0), (1, 1.5, 0.25), (3, 1.875, 0.0625)] {
+        let seen = sees(&mirror.replace("BOUNCES", &bounces.to_string()), [4, 4]);
+        assert_eq!(seen.chain.len(), bounces + 1);
+        assert_eq!(seen.cut, cut, "{bounces}");
+        assert!((seen.radiance[40] - radiance).abs() < 1e-6, "{bounces}");
+    }
+    let spliced = format!("[[splice]]\nrows = [0.5, 1.0]\neffects = {{ bounces = 1 }}\n{mirror}");
+    let spliced = spliced.replace("BOUNCES", "3");
+    assert_eq!(
+        [3, 5].map(|row| sees(&spliced, [4, row]).chain.len()),
+        [4, 2]
+    );
+}
+
+#[test]
+fn a_mirror_of_one_value_is_the_same_whether_it_is_called_constant_or_not() {
+    let mirror = "[worldline.w]\nvelocity = [0.1, 0, -0.3]\n\
+         [[model]]\nfile = \"wall.obj\"\nworldline = \"w\"\nmaterial = \"mirror\"\nscale = 9\ntranslate = [0, 0, -2]\n\
+         [[model]]\nfile = \"wall.obj\"\nmaterial = \"wall\"\nscale = 9\ntranslate = [0, 0, 2]\n\
+         [material.mirror]\nmirror = { weight = 0.8, spectrum = SPECTRUM }\n\
+         [material.wall]\ndiffuse = { spectrum = { gaussian = { center = 500, width = 40 } } }\n\
+         emission = { scale = 0.01, spectrum = { gaussian = { center = 450, width = 20 } } }\nthermal = { temperature = 3000 }\n\
+         [[light]]\nkind = \"sun\"\ndirection = [0, 0, 1]\nintensity = 100\n[camera]\n";
+    let constant = sees(&mirror.replace("SPECTRUM", "0.5"), [5, 3]);
+    let curve = sees(
+        &mirror.replace("SPECTRUM", "{ points = [[400, 0.5], [700, 0.5]] }"),
+        [5, 3],
+    );
+    let top = constant.xyz.iter().fold(0.0, |top: f64, v| top.max(*v));
+    assert!(top > 1.0);
+    for (one, other) in constant.xyz.iter().zip(&curve.xyz) {
+        assert!((one - other).abs() < 1e-6 * top, "{constant:?} {curve:?}");
+    }
+}
+
+#[test]
+fn glass_has_two_sides_even_where_its_file_says_one() {
+    let ball =
+        "[[model]]\nfile = \"ball.gltf\"\nMATERIAL[camera]\nposition = [0.1, 0.1, 3]\nhfov = 1\n";
+    let glass = "[material.glass]\nrefraction = { spectrum = 1.0 }\n";
+    let seen = sees(&ball.replace("MATERIAL", glass), [4, 4]);
+    assert_eq!(seen.chain.len(), 2, "it comes out again: {:?}", seen.chain);
+    let opaque = sees(&ball.replace("MATERIAL", "").replace("3]", "0]"), [4, 4]);
+    assert!(
+        opaque.hit.is_none(),
+        "from within, the file's own material is not there"
+    );
+}
+
+#[test]
+fn a_headlight_shines_from_the_cameras_own_frame() {
+    let shot = |velocity: &str, lamp: &str| {
+        format!(
+            "[worldline.ship]\nvelocity = {velocity}\n\
+             [[model]]\nfile = \"wall.obj\"\nworldline = \"ship\"\nmaterial = \"wall\"\ntranslate = [0, 0, -2]\n\
+             [material.wall]\ndiffuse = {{ spectrum = 0.5 }}\n\
+             [[light]]\nkind = \"spot\"\nworldline = \"{lamp}\"\nposition = [0, 1, 0]\ndirection = [0, -0.4, -1]\nintensity = 100\n\
+             [camera]\nworldline = \"ship\"\n"
+        )
+    };
+    let at_rest = sees(&shot("[0, 0, 0]", "camera"), [4, 4]);
+    let moving = sees(
+        &shot("{ gamma = 50, direction = [1, 2, 3] }", "camera"),
+        [4, 4],
+    );
+    let named = sees(
+        &shot("{ gamma = 50, direction = [1, 2, 3] }", "ship"),
+        [4, 4],
+    );
+    assert!(at_rest.xyz[1] > 0.1);
+    assert_eq!(
+        (&at_rest.radiance, &at_rest.xyz),
+        (&moving.radiance, &moving.xyz)
+    );
+    assert_eq!(moving, named);
+    let left_behind = sees(&shot("[0, 0, 0.9]", "lab"), [4, 4]);
+    assert!(left_behind.xyz[1] != at_rest.xyz[1]);
+}
