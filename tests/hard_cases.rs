@@ -26,6 +26,8 @@ mod lamps;
 mod light;
 #[path = "hard_cases/mirrors.rs"]
 mod mirrors;
+#[path = "hard_cases/moving_lamps.rs"]
+mod moving_lamps;
 #[path = "hard_cases/pipeline.rs"]
 mod pipeline;
 #[path = "hard_cases/scene.rs"]
@@ -38,7 +40,8 @@ fn sections() -> Vec<(&'static str, &'static [card::Case])> {
         ("B. Doppler factor and aberration", doppler::CASES),
         ("C. Radiometry and spectra", light::CASES),
         ("D. Geometry and visibility", geometry::CASES),
-        ("E. Lamps and shadows", lamps::CASES),
+        ("E. Moving lamps", moving_lamps::CASES),
+        ("E. Shadows", lamps::CASES),
         ("E. Mirrors and glass", mirrors::CASES),
         ("G. The program as a whole", pipeline::CASES),
     ]
