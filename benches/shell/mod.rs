@@ -1,9 +1,11 @@
 //! A scene in which every ray hits: a camera inside a closed shell with a lamp.
 
+mod read;
+
 use restframe::queue::Prepared;
 use restframe::scene::Scene;
 use restframe::trace::Stage;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 /// The shot with the shell at `beta` along x, the lamp on worldline `lamp`, and the given lines
 /// under `[effects]` and `[accuracy]`.
@@ -43,17 +45,5 @@ look_at = [0, 0, -1]
 exposure = 0
 "#
     );
-    let path = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(format!("shell-{}.toml", id(&text)));
-    std::fs::write(&path, text).expect("the target folder can be written to");
-    let prepared = Prepared::read(&path).expect("the shot has no mistake");
-    let scene = Scene::resolve(&prepared.shot, &prepared.library, 1, None).expect("it resolves");
-    let stage = Stage::build(&scene.geometry, None);
-    (prepared, scene, stage)
-}
-
-/// A name of its own for each text, since benches run side by side.
-fn id(text: &str) -> u64 {
-    text.bytes().fold(0xcbf2_9ce4_8422_2325, |hash, byte| {
-        (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3)
-    })
+    read::read(&text)
 }
