@@ -75,7 +75,7 @@ pub fn probe(
     let gain = exposure.exp2() / 100.0;
     let rgb = RGB_FROM_XYZ.map(|row| row.iter().zip(xyz).map(|(m, v)| m * v).sum::<f64>() * gain);
     let hit = match root {
-        Root::Sky(_) => None,
+        Root::Sky { .. } => None,
         Root::Surface(index) => Some(hit(view, scene, &trees.nodes[index as usize], direction)),
     };
     Probe {

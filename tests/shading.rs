@@ -5,6 +5,7 @@
     reason = "a test that cannot be set up has failed"
 )]
 
+use glam::DVec3;
 use restframe::plan;
 use restframe::scene::{Library, Scene};
 use restframe::shade::{Settings, ShadeScratch, Shader};
@@ -83,7 +84,11 @@ fn worst(shot: &Shot, scene: &Scene) -> f64 {
     for doppler in near.chain(far) {
         for lamp_doppler in [1.0, 0.7, 1.0 / doppler] {
             let trees = trees(doppler, lamp_doppler);
-            for root in [Root::Surface(0), Root::Sky(doppler)] {
+            let sky = Root::Sky {
+                doppler,
+                direction: DVec3::NEG_Z,
+            };
+            for root in [Root::Surface(0), sky] {
                 let short = shader.xyz(&trees, root, &mut scratch);
                 let long = shader.xyz_of(&shader.radiance(&trees, root));
                 let size = long.iter().fold(f64::MIN_POSITIVE, |m, v| m.max(*v));

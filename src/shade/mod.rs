@@ -12,6 +12,7 @@ mod bake;
 mod curve;
 pub mod received;
 mod shader;
+mod sky;
 mod table;
 mod thermal;
 

@@ -1,12 +1,14 @@
 //! The shader of one image: its materials and lamps with their curves ready.
 
 use super::bake::{Bake, MOST_TABLES, Settings, Sight, Surface, distinct_emitters};
-use super::received::Received;
+use super::received::{Received, finite};
+use super::sky::SkyShade;
 use super::thermal::BlackBodies;
 use crate::scene::Scene;
 use crate::shot::Spectra;
 use crate::spectrum::{LogAxis, Sensor};
 use crate::trace::{Lit, Node, Root, ShadeTrees};
+use std::sync::Arc;
 
 /// Turns shade trees to light.
 pub struct Shader {
@@ -17,8 +19,8 @@ pub struct Shader {
     lamps: Vec<(usize, f64)>,
     /// Distinct spectra of lamps.
     emitters: Vec<Sight>,
-    background: Option<Sight>,
-    bodies: Option<BlackBodies>,
+    sky: SkyShade,
+    bodies: Option<Arc<BlackBodies>>,
     /// Whether tables stand in for sums over wavelengths.
     tabulated: bool,
 }
@@ -45,20 +47,16 @@ impl Shader {
             .iter()
             .map(|material| bake.surface(material, &emitters))
             .collect();
-        let background =
-            scene.background.spectrum.as_ref().map(|spectrum| {
-                bake.sight(bake.curve(spectrum, 1.0, f64::INFINITY), settings.reach)
-            });
-        let bodies = surfaces
-            .iter()
-            .any(|s| s.glow.is_some())
-            .then(|| BlackBodies::new(&sensor));
+        let glows = surfaces.iter().any(|s| s.glow.is_some());
+        let bodies = (glows || scene.background.stars.is_some())
+            .then(|| Arc::new(BlackBodies::new(&sensor)));
+        let sky = SkyShade::new(&scene.background, &bake, bodies.clone());
         Self {
             received: Received::new(settings.called),
             surfaces,
             lamps,
             emitters,
-            background,
+            sky,
             bodies,
             tabulated,
             sensor,
@@ -73,10 +71,11 @@ impl Shader {
     /// XYZ (cd/m²) that the camera receives along a ray.
     pub fn xyz(&self, trees: &ShadeTrees, root: Root, scratch: &mut ShadeScratch) -> [f64; 3] {
         match root {
-            Root::Sky(d) => self
-                .background
-                .as_ref()
-                .map_or([0.0; 3], |sky| self.sight(sky, d, scratch)),
+            Root::Sky { doppler, direction } => {
+                let [shape, _] = scratch.buffers(self.sensor.axis().count());
+                self.sky
+                    .xyz(direction, doppler, self.received, &self.sensor, shape)
+            }
             Root::Surface(index) => self.surface_xyz(trees, index, scratch),
         }
     }
@@ -87,16 +86,23 @@ impl Shader {
         let mut out = vec![0.0; self.sensor.axis().count()];
         let mut scratch = ShadeScratch::default();
         match root {
-            Root::Sky(d) => {
-                if let Some(sky) = &self.background {
-                    self.add_sight(sky, d, &mut out, &mut scratch);
-                }
+            Root::Sky { doppler, direction } => {
+                let [shape, _] = scratch.buffers(out.len());
+                self.sky.add(
+                    direction,
+                    doppler,
+                    self.received,
+                    &self.sensor,
+                    &mut out,
+                    shape,
+                );
             }
             Root::Surface(index) => {
                 let node = trees.nodes[index as usize];
                 let surface = &self.surfaces[node.material as usize];
                 if let Some(emission) = &surface.emission {
-                    self.add_sight(emission, node.doppler, &mut out, &mut scratch);
+                    let [shape, _] = scratch.buffers(out.len());
+                    emission.add(node.doppler, self.received, &mut out, shape);
                 }
                 if let Some(glow) = &surface.glow {
                     glow.add(node.doppler, self.received, self.sensor.axis(), &mut out);
@@ -120,7 +126,9 @@ impl Shader {
         let surface = &self.surfaces[node.material as usize];
         let mut sum = [0.0; 3];
         if let Some(emission) = &surface.emission {
-            add(&mut sum, self.sight(emission, node.doppler, scratch), 1.0);
+            let [shape, _] = scratch.buffers(self.sensor.axis().count());
+            let xyz = emission.xyz(node.doppler, self.received, &self.sensor, shape);
+            add(&mut sum, xyz, 1.0);
         }
         if let (Some(glow), Some(bodies)) = (&surface.glow, &self.bodies) {
             let [shape, _] = scratch.buffers(self.sensor.axis().count());
@@ -267,26 +275,6 @@ impl Shader {
             }
         }
     }
-
-    fn sight(&self, sight: &Sight, d: f64, scratch: &mut ShadeScratch) -> [f64; 3] {
-        let power = self.received.radiance(d);
-        let shift = self.received.shift(d);
-        if self.tabulated {
-            return sight.table.at(shift.ln()).map(|v| v * power);
-        }
-        let [shape, _] = scratch.buffers(self.sensor.axis().count());
-        let factor = finite(sight.curve.read(shift, shape) * power);
-        self.sensor.xyz_of_shape(shape).map(|v| v * factor)
-    }
-
-    fn add_sight(&self, sight: &Sight, d: f64, out: &mut [f64], scratch: &mut ShadeScratch) {
-        let [shape, _] = scratch.buffers(out.len());
-        let peak = sight.curve.read(self.received.shift(d), shape);
-        let factor = finite(peak * self.received.radiance(d));
-        for (out, shape) in out.iter_mut().zip(&*shape) {
-            *out += factor * f64::from(*shape);
-        }
-    }
 }
 
 /// Scratch memory of a [`Shader`], to be kept from ray to ray.
@@ -307,12 +295,6 @@ impl ShadeScratch {
 
 fn lamps<'a>(trees: &'a ShadeTrees, node: &Node) -> &'a [Lit] {
     &trees.lit[node.first_lamp as usize..(node.first_lamp + node.lamps) as usize]
-}
-
-/// Held to the largest number: infinitely much of nothing would be no number.
-#[inline(always)]
-fn finite(value: f64) -> f64 {
-    value.min(f64::MAX)
 }
 
 #[inline(always)]

@@ -33,7 +33,6 @@ const LATER: &[(&str, When, &str)] = &[
     ("model[].light_units", Always, "leave it out: lamps are read as \"standard\""),
     ("material.*.mirror", Weighted, "leave it out or give it the weight 0"),
     ("material.*.refraction", Weighted, "leave it out or give it the weight 0"),
-    ("background.image", Always, "give the background a `spectrum`"),
     ("camera.model", Always, "place the camera with `position` and `look_at`"),
     ("camera.node", Always, "place the camera with `position` and `look_at`"),
     ("camera.projection", Word("equirectangular"), "use \"perspective\""),

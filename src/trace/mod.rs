@@ -51,8 +51,13 @@ impl ShadeTrees {
 /// What a camera ray sees first.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Root {
-    /// The background, shifted by this Doppler factor.
-    Sky(f64),
+    /// The background.
+    Sky {
+        /// D from the sky to the camera.
+        doppler: f64,
+        /// Where the ray looks: a unit vector in the sky's own axes.
+        direction: DVec3,
+    },
     /// A surface: index into [`ShadeTrees::nodes`].
     Surface(u32),
 }
@@ -130,10 +135,17 @@ impl Tracer<'_> {
         let sky = self
             .spacetime
             .link(self.scene.background.worldline, self.scene.camera.worldline);
+        let sky_from_rest = self.scene.background.axes.transpose();
         for (direction, nearest) in directions.iter().zip(&scratch.nearest) {
             let root = match nearest {
                 Some(nearest) => Root::Surface(self.add_surface(nearest, trees)),
-                None => Root::Sky(1.0 / sky.light(-*direction).frequency_ratio),
+                None => {
+                    let light = sky.light(-*direction);
+                    Root::Sky {
+                        doppler: 1.0 / light.frequency_ratio,
+                        direction: sky_from_rest * -light.direction,
+                    }
+                }
             };
             trees.roots.push(root);
         }
