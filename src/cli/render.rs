@@ -4,7 +4,6 @@ use super::{Failed, RenderArguments, failed, mistaken, misused, say};
 use crate::queue::{
     Exposing, FrameList, Prepared, Progress, Request, Resolved, options, render_shot,
 };
-use crate::scene::model;
 use crate::shot::LARGEST_SIDE;
 use std::collections::HashMap;
 
@@ -58,13 +57,13 @@ fn same_folder(shots: &[Prepared]) -> Option<Failed> {
     })
 }
 
-/// What model files ask for and the picture will not show.
+/// What the shot's files ask for and the picture will not show.
 pub(super) fn warn(prepared: &Prepared) {
-    let mut seen: Vec<(&std::path::Path, &model::Warning)> = Vec::new();
+    let mut seen: Vec<(&std::path::Path, String)> = Vec::new();
     for warning in prepared.library.warnings(&prepared.shot) {
         if !seen.contains(&warning) {
-            seen.push(warning);
             say(&format!("warning: {}: {}", warning.0.display(), warning.1));
+            seen.push(warning);
         }
     }
 }

@@ -151,9 +151,16 @@ fn describe(thing: &str, w: Celerity) -> String {
 }
 
 fn is_black(background: &Background) -> bool {
+    let never = |track: &Track<f64>| *track == Track::Constant(0.0);
+    if background.stars.is_some() {
+        return false;
+    }
+    if background.scale.as_ref().is_some_and(never) {
+        return true;
+    }
     match &background.spectrum {
-        None => true,
-        Some(SpectrumValue::Number(Track::Constant(value))) => *value == 0.0,
+        None => background.image.is_none(),
+        Some(SpectrumValue::Number(track)) => never(track),
         Some(_) => false,
     }
 }

@@ -1,14 +1,15 @@
-//! Everything a shot reads from other files, read once: model files and measured spectra.
+//! Everything a shot reads from other files, read once: model files, measured spectra, skies.
 
-use super::model::{self, Mesh, Model, Warning};
-use crate::shot::{Mistake, Mistakes, Shot, SpectrumTable, SpectrumValue};
+use super::model::{self, Mesh, Model};
+use super::sky::{SkyImage, Star, Stars, random_stars};
+use crate::shot::{self, Mistake, Mistakes, Shot, SpectrumTable, SpectrumValue};
 use crate::spectrum::Sampled;
 use std::collections::HashMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-/// Longest file of a measured spectrum, bytes.
+/// Longest file of a measured spectrum or of stars, bytes.
 const LARGEST_TABLE: u64 = 64 << 20;
 
 /// The files of a shot.
@@ -16,6 +17,8 @@ const LARGEST_TABLE: u64 = 64 << 20;
 pub struct Library {
     models: Vec<Arc<Loaded>>,
     tables: HashMap<PathBuf, Sampled>,
+    sky: Option<Arc<SkyImage>>,
+    stars: Option<Arc<Stars>>,
 }
 
 /// A model file.
@@ -45,31 +48,58 @@ impl Library {
                 }
             }
         }
+        let sky = shot.background.image.as_ref().and_then(|file| {
+            let image = SkyImage::read(&beside(shot, file)).map_err(|e| e.to_string());
+            kept(shot, "background.image", image, &mut mistakes)
+        });
+        let stars = shot.background.stars.as_ref().and_then(|stars| {
+            let stars = load_stars(shot, stars);
+            kept(shot, "background.stars.file", stars, &mut mistakes)
+        });
         if mistakes.is_empty() {
-            Ok(Self { models, tables })
+            Ok(Self {
+                models,
+                tables,
+                sky,
+                stars,
+            })
         } else {
             Err(Mistakes::new(&shot.places, mistakes))
         }
     }
 
-    /// What of the model files the picture will not show, with the file's name.
-    pub fn warnings<'a>(&'a self, shot: &'a Shot) -> impl Iterator<Item = (&'a Path, &'a Warning)> {
+    /// What of the files the picture will not show as it stands there, with the file's name.
+    pub fn warnings<'a>(&'a self, shot: &'a Shot) -> impl Iterator<Item = (&'a Path, String)> {
         let mut seen: Vec<*const Loaded> = Vec::new();
-        shot.model
+        let models = shot
+            .model
             .iter()
             .zip(&self.models)
             .filter(move |(_, loaded)| {
                 let known = seen.contains(&Arc::as_ptr(loaded));
                 seen.push(Arc::as_ptr(loaded));
                 !known
-            })
-            .flat_map(|(model, loaded)| {
-                loaded
-                    .file
-                    .warnings
-                    .iter()
-                    .map(|w| (model.file.as_path(), w))
-            })
+            });
+        let of_models = models.flat_map(|(model, loaded)| {
+            let warnings = loaded.file.warnings.iter();
+            warnings.map(|w| (model.file.as_path(), w.to_string()))
+        });
+        let clamped = self.sky.as_ref().map_or(0, |sky| sky.clamped());
+        let image = shot.background.image.iter().filter(move |_| clamped > 0);
+        of_models.chain(image.map(move |file| {
+            let message = format!(
+                "{clamped} components of its colors are negative, infinite or no number: they are clamped to 0 or to the greatest that is finite"
+            );
+            (file.as_path(), message)
+        }))
+    }
+
+    pub(super) fn sky(&self) -> Option<Arc<SkyImage>> {
+        self.sky.clone()
+    }
+
+    pub(super) fn stars(&self) -> Option<Arc<Stars>> {
+        self.stars.clone()
     }
 
     pub(super) fn model(&self, index: usize) -> &Loaded {
@@ -114,15 +144,41 @@ pub(super) fn beside(shot: &Shot, file: &Path) -> PathBuf {
         .map_or_else(|| file.to_owned(), |folder| folder.join(file))
 }
 
+/// What a file gave, or nothing and the mistake.
+fn kept<T>(
+    shot: &Shot,
+    key: &str,
+    read: Result<T, String>,
+    mistakes: &mut Vec<Mistake>,
+) -> Option<Arc<T>> {
+    read.map(Arc::new)
+        .map_err(|message| mistakes.push(shot.places.mistake(key, message, None)))
+        .ok()
+}
+
+fn load_stars(shot: &Shot, stars: &shot::Stars) -> Result<Stars, String> {
+    let list = match stars {
+        shot::Stars::Random(keys) => random_stars(keys),
+        shot::Stars::Catalogue(keys) => {
+            let path = beside(shot, &keys.file);
+            Star::from_csv(&read_text(&path)?).map_err(|e| format!("{}: {e}", path.display()))?
+        }
+    };
+    Ok(Stars::new(&list, stars.size()))
+}
+
 fn read_table(path: &Path) -> Result<Sampled, String> {
+    Sampled::from_csv(&read_text(path)?).map_err(|e| format!("{}: {e}", path.display()))
+}
+
+fn read_text(path: &Path) -> Result<String, String> {
     let length = fs::metadata(path).map_err(|e| e.to_string())?.len();
     if length > LARGEST_TABLE {
         return Err(format!(
-            "a spectrum of {length} bytes is more than {LARGEST_TABLE}"
+            "a table of {length} bytes is more than {LARGEST_TABLE}"
         ));
     }
-    let text = fs::read_to_string(path).map_err(|e| e.to_string())?;
-    Sampled::from_csv(&text).map_err(|e| format!("{}: {e}", path.display()))
+    fs::read_to_string(path).map_err(|e| e.to_string())
 }
 
 /// Every spectrum table of a shot, with its key.

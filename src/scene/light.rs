@@ -1,4 +1,4 @@
-//! Lamps and the background, each at rest in a worldline of its own.
+//! Lamps, each at rest in a worldline of its own.
 
 use super::model::{Lamp, LampKind};
 use super::spectra::Spectra;
@@ -75,22 +75,6 @@ impl LightShape {
             }
             Self::Point { .. } | Self::Sun { .. } => 1.0,
         }
-    }
-}
-
-/// What is seen where no surface is: a sky of one spectral radiance.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Background {
-    /// Index into the scene's worldlines.
-    pub worldline: usize,
-    /// Spectral radiance, W·m⁻²·sr⁻¹·nm⁻¹, in its rest frame; None where it is black.
-    pub spectrum: Option<Arc<Spectrum>>,
-}
-
-impl Background {
-    /// Whether there is nothing to see.
-    pub fn is_black(&self) -> bool {
-        self.spectrum.is_none()
     }
 }
 

@@ -5,6 +5,7 @@
 //! In: a [`Shot`](crate::shot::Shot) and a frame number. Out: a [`Scene`].
 
 pub mod model;
+pub mod sky;
 
 mod body;
 mod camera;
@@ -18,7 +19,8 @@ mod surfaces;
 pub use body::{Geometry, Instance, SurfacePoint};
 pub use camera::Camera;
 pub use library::Library;
-pub use light::{Background, Light, LightShape};
+pub use light::{Light, LightShape};
 pub use material::{Curve, Highlight, Material, Reflectance, Thermal};
 pub use model::Mesh;
 pub use resolve::Scene;
+pub use sky::Background;

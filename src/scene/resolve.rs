@@ -3,13 +3,15 @@
 use super::body::{Geometry, Placing, placings};
 use super::camera::Camera;
 use super::library::Library;
-use super::light::{Background, Light};
+use super::light::Light;
 use super::material::Material;
 use super::model::ModelMaterial;
+use super::sky::Background;
 use super::spectra::Spectra;
 use crate::plan;
 use crate::relativity::Worldline;
 use crate::shot::{Mistake, Mistakes, Shot};
+use glam::DMat3;
 use indexmap::IndexSet;
 use std::collections::HashMap;
 use std::sync::Arc;
@@ -238,13 +240,8 @@ impl Resolver<'_> {
             library: self.library,
             frame: self.frame,
         };
-        let spectrum = match self
-            .shot
-            .background
-            .spectrum
-            .as_ref()
-            .map(|v| spectra.curve(v))
-        {
+        let sky = &self.shot.background;
+        let spectrum = match sky.spectrum.as_ref().map(|v| spectra.curve(v)) {
             None => None,
             Some(Ok(curve)) => Some(curve).filter(|c| c.peak() > 0.0),
             Some(Err(error)) => {
@@ -254,7 +251,11 @@ impl Resolver<'_> {
         };
         Background {
             worldline,
+            axes: DMat3::IDENTITY,
+            scale: sky.scale.as_ref().map_or(1.0, |scale| spectra.at(scale)),
             spectrum,
+            image: self.library.sky(),
+            stars: self.library.stars(),
         }
     }
 

@@ -1,6 +1,7 @@
 //! What a shader is made of: the curves of materials and lamps, baked, and their tables.
 
 use super::curve::Curve;
+use super::received::{Received, finite};
 use super::table::XyzTable;
 use super::thermal::Glow;
 use crate::plan::Called;
@@ -46,6 +47,36 @@ pub(super) struct Reflecting {
 pub(super) struct Sight {
     pub(super) curve: Curve,
     pub(super) table: XyzTable,
+    /// Whether the table stands in for the sum over wavelengths.
+    tabulated: bool,
+}
+
+impl Sight {
+    /// XYZ under the Doppler factor `d`.
+    pub(super) fn xyz(
+        &self,
+        d: f64,
+        received: Received,
+        sensor: &Sensor,
+        shape: &mut [f32],
+    ) -> [f64; 3] {
+        let power = received.radiance(d);
+        let shift = received.shift(d);
+        if self.tabulated {
+            return self.table.at(shift.ln()).map(|v| v * power);
+        }
+        let factor = finite(self.curve.read(shift, shape) * power);
+        sensor.xyz_of_shape(shape).map(|v| v * factor)
+    }
+
+    /// Adds the spectral radiance under the Doppler factor `d` at the axis' wavelengths.
+    pub(super) fn add(&self, d: f64, received: Received, out: &mut [f64], shape: &mut [f32]) {
+        let peak = self.curve.read(received.shift(d), shape);
+        let factor = finite(peak * received.radiance(d));
+        for (out, shape) in out.iter_mut().zip(&*shape) {
+            *out += factor * f64::from(*shape);
+        }
+    }
 }
 
 /// What a [`Shader`](super::Shader) is made for, beside the scene.
@@ -171,7 +202,11 @@ impl Bake<'_> {
     pub(super) fn sight(&self, curve: Curve, reach: f64) -> Sight {
         let support = curve.support_nm();
         let table = self.table(reach, support, |d, out| curve.read(d, out));
-        Sight { curve, table }
+        Sight {
+            curve,
+            table,
+            tabulated: self.tabulated,
+        }
     }
 
     /// XYZ of reflectance times emitter under one shift.

@@ -1,7 +1,8 @@
 //! Light of lamps on a surface, under the shifts of both.
 
 use super::bake::MaterialCurves;
-use super::shader::{ShadeScratch, Shader, add, finite};
+use super::received::finite;
+use super::shader::{ShadeScratch, Shader, add};
 use crate::trace::Lit;
 
 impl Shader {

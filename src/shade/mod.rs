@@ -15,6 +15,7 @@ mod passage;
 mod radiance;
 pub mod received;
 mod shader;
+mod sky;
 mod table;
 mod thermal;
 

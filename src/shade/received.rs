@@ -26,8 +26,8 @@ impl Received {
     #[inline(always)]
     pub fn radiance(self, d: f64) -> f64 {
         match self.beaming {
-            Beaming::Full => held((d * d) * (d * d) * d),
-            Beaming::Square => held(d * d),
+            Beaming::Full => finite((d * d) * (d * d) * d),
+            Beaming::Square => finite(d * d),
             Beaming::Off => 1.0,
         }
     }
@@ -39,8 +39,8 @@ impl Received {
         match (self.doppler, self.beaming) {
             (false, _) => self.radiance(d),
             (true, Beaming::Full) => 1.0,
-            (true, Beaming::Square) => held(1.0 / (d * d * d)),
-            (true, Beaming::Off) => held(1.0 / ((d * d) * (d * d) * d)),
+            (true, Beaming::Square) => finite(1.0 / (d * d * d)),
+            (true, Beaming::Off) => finite(1.0 / ((d * d) * (d * d) * d)),
         }
     }
 
@@ -48,8 +48,8 @@ impl Received {
     #[inline(always)]
     pub fn irradiance(self, d: f64) -> f64 {
         match self.beaming {
-            Beaming::Full => held(d * d * d),
-            Beaming::Square => held(d * d),
+            Beaming::Full => finite(d * d * d),
+            Beaming::Square => finite(d * d),
             Beaming::Off => 1.0,
         }
     }
@@ -61,8 +61,8 @@ impl Received {
     }
 }
 
-/// A power of D, held to the largest number: so much of nothing is still nothing.
+/// Held to the largest number: infinitely much of nothing would be no number.
 #[inline(always)]
-fn held(power: f64) -> f64 {
-    power.min(f64::MAX)
+pub(super) fn finite(value: f64) -> f64 {
+    value.min(f64::MAX)
 }

@@ -3,12 +3,14 @@
 use super::bake::{Bake, MOST_TABLES, MaterialCurves, Settings, Sight, distinct_emitters};
 use super::passage::Passages;
 use super::radiance::Radiance;
-use super::received::Received;
+use super::received::{Received, finite};
+use super::sky::SkyShade;
 use super::thermal::BlackBodies;
 use crate::scene::Scene;
 use crate::shot::Spectra;
 use crate::spectrum::{LogAxis, Sensor};
 use crate::trace::{Node, Root, Seen, ShadeTrees, Surface};
+use std::sync::Arc;
 
 /// Turns shade trees to light.
 pub struct Shader {
@@ -19,8 +21,8 @@ pub struct Shader {
     pub(super) lamps: Vec<(usize, f64)>,
     /// Distinct spectra of lamps.
     pub(super) emitters: Vec<Sight>,
-    background: Option<Sight>,
-    bodies: Option<BlackBodies>,
+    sky: SkyShade,
+    bodies: Option<Arc<BlackBodies>>,
     /// Whether tables stand in for sums over wavelengths.
     pub(super) tabulated: bool,
 }
@@ -47,20 +49,16 @@ impl Shader {
             .iter()
             .map(|material| bake.surface(material, &emitters))
             .collect();
-        let background =
-            scene.background.spectrum.as_ref().map(|spectrum| {
-                bake.sight(bake.curve(spectrum, 1.0, f64::INFINITY), settings.reach)
-            });
-        let bodies = surfaces
-            .iter()
-            .any(|s| s.glow.is_some())
-            .then(|| BlackBodies::new(&sensor));
+        let glows = surfaces.iter().any(|s| s.glow.is_some());
+        let bodies = (glows || scene.background.stars.is_some())
+            .then(|| Arc::new(BlackBodies::new(&sensor)));
+        let sky = SkyShade::new(&scene.background, &bake, bodies.clone());
         Self {
             received: Received::new(settings.called),
             surfaces,
             lamps,
             emitters,
-            background,
+            sky,
             bodies,
             tabulated,
             sensor,
@@ -148,10 +146,11 @@ impl Shader {
 
     fn node_xyz(&self, trees: &ShadeTrees, node: &Node, scratch: &mut ShadeScratch) -> [f64; 3] {
         match &node.seen {
-            Seen::Sky(_) => self
-                .background
-                .as_ref()
-                .map_or([0.0; 3], |sky| self.sight(sky, node.doppler, scratch)),
+            Seen::Sky(direction) => {
+                let [shape, _] = scratch.buffers(self.sensor.axis().count());
+                self.sky
+                    .xyz(*direction, node.doppler, self.received, &self.sensor, shape)
+            }
             Seen::Surface(surface) => self.surface_xyz(trees, surface, node.doppler, scratch),
         }
     }
@@ -166,7 +165,9 @@ impl Shader {
         let curves = &self.surfaces[surface.material as usize];
         let mut sum = [0.0; 3];
         if let Some(emission) = &curves.emission {
-            add(&mut sum, self.sight(emission, doppler, scratch), 1.0);
+            let [shape, _] = scratch.buffers(self.sensor.axis().count());
+            let xyz = emission.xyz(doppler, self.received, &self.sensor, shape);
+            add(&mut sum, xyz, 1.0);
         }
         if let (Some(glow), Some(bodies)) = (&curves.glow, &self.bodies) {
             let [shape, _] = scratch.buffers(self.sensor.axis().count());
@@ -193,15 +194,23 @@ impl Shader {
         scratch: &mut ShadeScratch,
     ) {
         let doppler = node.doppler;
-        let Seen::Surface(surface) = &node.seen else {
-            if let Some(sky) = &self.background {
-                self.add_sight(sky, doppler, &mut light.surface, scratch);
+        let [shape, _] = scratch.buffers(self.sensor.axis().count());
+        let surface = match &node.seen {
+            Seen::Surface(surface) => surface,
+            Seen::Sky(direction) => {
+                return self.sky.add(
+                    *direction,
+                    doppler,
+                    self.received,
+                    &self.sensor,
+                    &mut light.surface,
+                    shape,
+                );
             }
-            return;
         };
         let curves = &self.surfaces[surface.material as usize];
         if let Some(emission) = &curves.emission {
-            self.add_sight(emission, doppler, &mut light.surface, scratch);
+            emission.add(doppler, self.received, &mut light.surface, shape);
         }
         if let Some(glow) = &curves.glow {
             glow.add(
@@ -213,26 +222,6 @@ impl Shader {
         }
         for lit in trees.lamps_on(surface) {
             self.add_lamp(curves, doppler, lit, &mut light.surface, scratch);
-        }
-    }
-
-    fn sight(&self, sight: &Sight, d: f64, scratch: &mut ShadeScratch) -> [f64; 3] {
-        let power = self.received.radiance(d);
-        let shift = self.received.shift(d);
-        if self.tabulated {
-            return sight.table.at(shift.ln()).map(|v| v * power);
-        }
-        let [shape, _] = scratch.buffers(self.sensor.axis().count());
-        let factor = finite(sight.curve.read(shift, shape) * power);
-        self.sensor.xyz_of_shape(shape).map(|v| v * factor)
-    }
-
-    fn add_sight(&self, sight: &Sight, d: f64, out: &mut [f64], scratch: &mut ShadeScratch) {
-        let [shape, _] = scratch.buffers(out.len());
-        let peak = sight.curve.read(self.received.shift(d), shape);
-        let factor = finite(peak * self.received.radiance(d));
-        for (out, shape) in out.iter_mut().zip(&*shape) {
-            *out += factor * f64::from(*shape);
         }
     }
 }
@@ -253,12 +242,6 @@ impl ShadeScratch {
         self.reflected.resize(count, 0.0);
         [&mut self.light, &mut self.reflected]
     }
-}
-
-/// Held to the largest number: infinitely much of nothing would be no number.
-#[inline(always)]
-pub(super) fn finite(value: f64) -> f64 {
-    value.min(f64::MAX)
 }
 
 #[inline(always)]

@@ -27,7 +27,6 @@ const LATER: &[(&str, When, &str)] = &[
     ("model[].clips", Always, "leave it out: models stand as their file's nodes do"),
     ("model[].motion", Always, "leave it out: models stand as their file's nodes do"),
     ("model[].light_units", Always, "leave it out: lamps are read as \"standard\""),
-    ("background.image", Always, "give the background a `spectrum`"),
     ("camera.model", Always, "place the camera with `position` and `look_at`"),
     ("camera.node", Always, "place the camera with `position` and `look_at`"),
     ("camera.projection", Word("equirectangular"), "use \"perspective\""),

@@ -1,5 +1,5 @@
-//! What lights the scene and what lies behind it: lamps and the background. Everything is in
-//! the rest frame of the worldline it rides on: metres, candelas, lux, degrees.
+//! What lights the scene: lamps. Everything is in the rest frame of the worldline it rides on:
+//! metres, candelas, lux, degrees.
 
 use super::{SpectrumValue, Track};
 use schemars::JsonSchema;
@@ -46,15 +46,4 @@ pub enum LightKind {
     Spot,
     /// From infinity along one direction.
     Sun,
-}
-
-/// `[background]`: what is seen where no surface is.
-#[derive(Debug, Clone, Default, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, default)]
-pub struct Background {
-    /// Worldline that it rides on; "camera" leaves it unshifted. Default: "camera".
-    pub worldline: Option<String>,
-    /// Spectral radiance, W·m⁻²·sr⁻¹·nm⁻¹, at least 0. Default: 0.0.
-    #[schemars(extend("minimum" = 0))]
-    pub spectrum: Option<SpectrumValue>,
 }

@@ -22,6 +22,7 @@ mod mistake;
 mod names;
 mod schema;
 mod settings;
+mod sky;
 mod track;
 mod walk;
 
@@ -37,13 +38,16 @@ pub use appearance::{
 pub use body::{Array, GammaVelocity, Model, RapidityVelocity, Scale, Velocity, Worldline};
 pub use camera::{Camera, Projection};
 pub use check::{ILLUMINANTS, MAX_INSTANCES};
-pub use light::{Background, Light, LightKind};
+pub use light::{Light, LightKind};
 pub use load::{MAX_BYTES, load, parse};
 pub use mistake::{Mistake, Mistakes, Places};
 pub use schema::schema;
 pub use settings::{
     Accuracy, AutoExposure, Beaming, Clock, Effects, Exposure, Filter, Format, Image, LARGEST_SIDE,
     Layer, Output, Sensor, SensorColor, Spectra, Splice, SpliceEffects, Switch, Tone,
+};
+pub use sky::{
+    Background, MOST_STARS, RandomStars, STAR_KELVIN, STAR_MAGNITUDE, StarCatalogue, Stars,
 };
 pub use track::{Blend, Ease, Track};
 

@@ -24,7 +24,7 @@ pub use log_grid::{Baked, LogAxis, Shifted};
 pub use planck::PlanckShape;
 pub use sampled::Sampled;
 pub use sensor::{Sensor, catmull_rom};
-pub use uplift::Uplift;
+pub use uplift::{ColoredLight, Uplift};
 
 /// How many widths from its center a gaussian falls below 1e-30 of its peak (e⁻⁷² = 5e-32).
 const GAUSSIAN_REACH: f64 = 12.0;

@@ -27,24 +27,14 @@ impl Sampled {
 
     /// Reads a table of two columns, wavelength in nm and value; holds beyond its ends.
     ///
-    /// Columns are parted by comma, semicolon, tab or spaces; the decimal sign is the point. `#`
-    /// begins a comment. The first row may be a header: one whose first field does not begin like
-    /// a number. At most [`MAX_ROWS`] rows. Errors carry the line's number, from 1.
+    /// Its [`rows`] are at most [`MAX_ROWS`]. Errors carry the line's number, from 1.
     pub fn from_csv(text: &str) -> Result<Self, SpectrumError> {
-        let text = text.strip_prefix('\u{feff}').unwrap_or(text);
         let mut points = Vec::new();
-        let mut header_allowed = true;
-        for (index, line) in text.lines().enumerate() {
-            let content = line.split('#').next().unwrap_or_default().trim();
-            if content.is_empty() {
-                continue;
-            }
-            if !(std::mem::take(&mut header_allowed) && is_header(content)) {
-                let at_line = |error| SpectrumError::at_line(index + 1, error);
-                let point = parse_row(content).map_err(at_line)?;
-                check_next(points.len(), points.last().copied(), point).map_err(at_line)?;
-                points.push(point);
-            }
+        for (line, fields) in rows(text) {
+            let at_line = |error| SpectrumError::at_line(line, error);
+            let point = parse_row(&fields).map_err(at_line)?;
+            check_next(points.len(), points.last().copied(), point).map_err(at_line)?;
+            points.push(point);
         }
         Self::new(&points, Beyond::Hold)
     }
@@ -82,6 +72,23 @@ impl Sampled {
     }
 }
 
+/// The rows of a table of numbers: the line's number, from 1, and its fields.
+///
+/// Columns are parted by comma, semicolon, tab or spaces; the decimal sign is the point. `#`
+/// begins a comment. The first row may be a header: one whose first field does not begin like a
+/// number.
+pub fn rows(text: &str) -> impl Iterator<Item = (usize, Vec<&str>)> {
+    let text = text.strip_prefix('\u{feff}').unwrap_or(text);
+    let mut header_allowed = true;
+    text.lines().enumerate().filter_map(move |(index, line)| {
+        let content = line.split('#').next().unwrap_or_default().trim();
+        if content.is_empty() || (std::mem::take(&mut header_allowed) && is_header(content)) {
+            return None;
+        }
+        Some((index + 1, fields(content).collect()))
+    })
+}
+
 /// Whether a row begins unlike a number.
 fn is_header(content: &str) -> bool {
     let word = fields(content).next().unwrap_or_default();
@@ -101,8 +108,9 @@ fn fields(content: &str) -> impl Iterator<Item = &str> {
     parts.into_iter()
 }
 
-fn parse_row(content: &str) -> Result<(f64, f64), SpectrumError> {
-    let numbers: Vec<f64> = fields(content)
+fn parse_row(fields: &[&str]) -> Result<(f64, f64), SpectrumError> {
+    let numbers: Vec<f64> = fields
+        .iter()
         .map(|field| {
             field.parse().map_err(|_| SpectrumError::Number {
                 found: field.chars().take(40).collect(),

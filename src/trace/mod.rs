@@ -193,6 +193,7 @@ impl Tracer<'_> {
             .spacetime
             .link(background.worldline, worldline)
             .light(-direction);
-        Some((-light.direction, 1.0 / light.frequency_ratio))
+        let seen = background.axes.transpose() * -light.direction;
+        Some((seen, 1.0 / light.frequency_ratio))
     }
 }

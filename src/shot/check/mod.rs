@@ -8,6 +8,7 @@ mod bodies;
 mod camera;
 mod lights;
 mod materials;
+mod sky;
 mod spectra;
 
 use super::mistake::Mistake;
@@ -44,6 +45,7 @@ pub(super) fn check(shot: &Shot, walk: Walk<'_>) -> Vec<Mistake> {
     checks.spectra();
     checks.materials();
     checks.lights();
+    checks.sky();
     checks.camera();
     checks.mistakes
 }

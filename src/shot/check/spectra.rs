@@ -29,12 +29,6 @@ impl Checks<'_> {
         for (name, table) in &self.shot.spectrum {
             self.spectrum_table(&format!("spectrum.{name}"), table);
         }
-        let key = "background.spectrum";
-        self.spectrum(key, self.shot.background.spectrum.as_ref());
-        self.check_worldline(
-            "background.worldline",
-            self.shot.background.worldline.as_ref(),
-        );
     }
 
     /// A spectrum wherever one stands.

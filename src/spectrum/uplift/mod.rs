@@ -8,6 +8,9 @@
 //! color's; beyond, where no color says what it is, the end's value goes on.
 
 mod fit;
+mod light;
+
+pub use light::{ColoredLight, HUE_ERROR};
 
 use std::sync::LazyLock;
 

@@ -1,0 +1,200 @@
+//! Light of the sky in one direction: its spectrum or image, and the stars there.
+//!
+//! An image's colour becomes a curve, [`ColoredLight`] times D65, that is read at all wavelengths
+//! under the shift. Beyond the visible the colour's curve goes on with its end value and D65 with
+//! that of its table (300 and 780 nm): an image does not say more. Where nothing is shifted and
+//! the sensor is the CIE's over the visible, XYZ is the colour's own; both ways agree within
+//! [`AGREEMENT`].
+
+use super::bake::{Bake, Sight};
+use super::curve::Curve;
+use super::received::{Received, finite};
+use super::thermal::BlackBodies;
+use crate::scene::Background;
+use crate::scene::sky::{SkyImage, Stars};
+use crate::spectrum::color_space::{Matrix, RGB_FROM_XYZ, XYZ_FROM_RGB, apply};
+use crate::spectrum::{ColoredLight, Sensor, illuminant, planck};
+use glam::DVec3;
+use std::sync::Arc;
+
+/// How near XYZ of a colour itself comes to that of its curve, over the greatest of X, Y and Z,
+/// where it stands in for it.
+const AGREEMENT: f64 = 1e-3;
+
+/// Colours by which the agreement is judged: the most saturated, and some between.
+const JUDGED: [[f64; 3]; 8] = [
+    [1.0, 0.0, 0.0],
+    [0.0, 1.0, 0.0],
+    [0.0, 0.0, 1.0],
+    [0.0, 1.0, 1.0],
+    [1.0, 0.0, 1.0],
+    [1.0, 1.0, 0.0],
+    [1.0, 1.0, 1.0],
+    [0.2, 0.5, 1.0],
+];
+
+/// The sky of one image, ready to be looked at.
+pub(super) struct SkyShade {
+    constant: Option<Sight>,
+    image: Option<Painted>,
+    stars: Option<(Arc<Stars>, Arc<BlackBodies>)>,
+}
+
+impl SkyShade {
+    /// Prepares a sky's curves. `bodies` are there if it has stars.
+    pub(super) fn new(sky: &Background, bake: &Bake<'_>, bodies: Option<Arc<BlackBodies>>) -> Self {
+        let lit = sky.scale > 0.0;
+        let constant = sky.spectrum.as_ref().filter(|_| lit).map(|spectrum| {
+            let curve = bake.curve(spectrum, sky.scale, f64::INFINITY);
+            bake.sight(curve, bake.settings.reach)
+        });
+        let image = sky.image.as_ref().filter(|_| lit);
+        Self {
+            constant,
+            image: image.map(|image| Painted::new(Arc::clone(image), sky.scale, bake)),
+            stars: sky.stars.clone().zip(bodies),
+        }
+    }
+
+    /// XYZ (cd/m²) from a unit direction, in the sky's own axes, away from the observer, under the
+    /// Doppler factor `doppler`. `scratch` is as long as the sensor's axis.
+    #[inline]
+    pub(super) fn xyz(
+        &self,
+        direction: DVec3,
+        doppler: f64,
+        received: Received,
+        sensor: &Sensor,
+        scratch: &mut [f32],
+    ) -> [f64; 3] {
+        let mut sum = [0.0; 3];
+        let mut add = |xyz: [f64; 3]| (0..3).for_each(|c| sum[c] += xyz[c]);
+        if let Some(sight) = &self.constant {
+            add(sight.xyz(doppler, received, sensor, scratch));
+        }
+        if let Some(image) = &self.image {
+            add(image.xyz(direction, doppler, received, sensor, scratch));
+        }
+        if let Some((stars, bodies)) = &self.stars {
+            for star in stars.seen(direction) {
+                let factor = finite(star.scale * received.black_body(doppler));
+                let kelvin = finite(received.shift(doppler) * star.temperature_k);
+                add(bodies.xyz(kelvin).map(|v| v * factor));
+            }
+        }
+        sum.map(finite)
+    }
+
+    /// Adds the spectral radiance (W·m⁻²·sr⁻¹·nm⁻¹) that [`SkyShade::xyz`] is of.
+    pub(super) fn add(
+        &self,
+        direction: DVec3,
+        doppler: f64,
+        received: Received,
+        sensor: &Sensor,
+        out: &mut [f64],
+        scratch: &mut [f32],
+    ) {
+        if let Some(sight) = &self.constant {
+            sight.add(doppler, received, out, scratch);
+        }
+        if let Some(image) = &self.image {
+            let shift = received.shift(doppler);
+            let factor = image.read(image.image.rgb(direction), shift, scratch);
+            let factor = finite(factor * received.radiance(doppler));
+            for (out, shape) in out.iter_mut().zip(&*scratch) {
+                *out += factor * f64::from(*shape);
+            }
+        }
+        if let Some((stars, _)) = &self.stars {
+            for star in stars.seen(direction) {
+                let factor = finite(star.scale * received.black_body(doppler));
+                let kelvin = finite(received.shift(doppler) * star.temperature_k);
+                for (j, out) in out.iter_mut().enumerate() {
+                    let nm = sensor.axis().wavelength_nm(j as f64);
+                    *out += factor * planck::radiance(nm, kelvin);
+                }
+            }
+        }
+    }
+}
+
+/// An image as light.
+struct Painted {
+    image: Arc<SkyImage>,
+    scale: f64,
+    d65: Curve,
+    wavelengths_nm: Vec<f32>,
+    /// XYZ of an unshifted colour at scale 1, if the sensor has that of its curve.
+    xyz_from_rgb: Option<Matrix>,
+}
+
+impl Painted {
+    fn new(image: Arc<SkyImage>, scale: f64, bake: &Bake<'_>) -> Self {
+        let sensor = bake.sensor;
+        let d65 = Arc::new(illuminant("D65").expect("D65 has a table"));
+        let wavelengths_nm = sensor.axis().wavelengths_nm();
+        let mut painted = Self {
+            image,
+            scale,
+            d65: bake.curve(&d65, 1.0, f64::INFINITY),
+            wavelengths_nm: wavelengths_nm.iter().map(|nm| *nm as f32).collect(),
+            xyz_from_rgb: None,
+        };
+        painted.xyz_from_rgb = painted.own_colors(sensor);
+        painted
+    }
+
+    /// XYZ of a colour without its curve, by the sensor's own white: None if this sensor's XYZ of
+    /// curves is another.
+    fn own_colors(&self, sensor: &Sensor) -> Option<Matrix> {
+        let mut shape = vec![0.0; self.wavelengths_nm.len()];
+        let mut by_curve = |rgb: [f64; 3]| {
+            let factor = self.read(rgb, 1.0, &mut shape) / self.scale;
+            sensor.xyz_of_shape(&shape).map(|v| v * factor)
+        };
+        // A curve's channels are relative to those of D65, whose table is not quite the white.
+        let white = apply(&RGB_FROM_XYZ, by_curve([1.0; 3]));
+        let own = XYZ_FROM_RGB.map(|row| [0, 1, 2].map(|c| row[c] * white[c]));
+        let agrees = |rgb: [f64; 3]| {
+            let (curve, own) = (by_curve(rgb), apply(&own, rgb));
+            let greatest = curve.into_iter().fold(0.0, f64::max);
+            (0..3).all(|c| (curve[c] - own[c]).abs() <= AGREEMENT * greatest)
+        };
+        JUDGED.into_iter().all(agrees).then_some(own)
+    }
+
+    #[inline]
+    fn xyz(
+        &self,
+        direction: DVec3,
+        doppler: f64,
+        received: Received,
+        sensor: &Sensor,
+        shape: &mut [f32],
+    ) -> [f64; 3] {
+        let rgb = self.image.rgb(direction);
+        let shift = received.shift(doppler);
+        let power = received.radiance(doppler);
+        let (xyz, factor) = match &self.xyz_from_rgb {
+            Some(matrix) if shift == 1.0 => (apply(matrix, rgb), self.scale),
+            _ => {
+                let factor = self.read(rgb, shift, shape);
+                (sensor.xyz_of_shape(shape), factor)
+            }
+        };
+        let factor = finite(factor * power);
+        // The sensor's weights may be below 0 by rounding.
+        xyz.map(|v| finite(v.max(0.0) * factor))
+    }
+
+    /// Writes the shape of a colour's light at `shift` times the axis' wavelengths; `out` is to be
+    /// multiplied by what is returned, which is finite.
+    #[inline]
+    fn read(&self, rgb: [f64; 3], shift: f64, out: &mut [f32]) -> f64 {
+        let light = ColoredLight::new(rgb);
+        let peak = self.d65.read(shift, out);
+        light.multiply(shift, &self.wavelengths_nm, out);
+        finite(finite(light.factor() * self.scale) * peak)
+    }
+}
