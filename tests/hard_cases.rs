@@ -22,8 +22,14 @@ mod geometry;
 mod lamps;
 #[path = "hard_cases/light.rs"]
 mod light;
+#[path = "hard_cases/numbers.rs"]
+mod numbers;
+#[path = "hard_cases/pictures.rs"]
+mod pictures;
 #[path = "hard_cases/pipeline.rs"]
 mod pipeline;
+#[path = "hard_cases/poincare.rs"]
+mod poincare;
 #[path = "hard_cases/scene.rs"]
 mod scene;
 
