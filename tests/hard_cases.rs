@@ -28,8 +28,14 @@ mod light;
 mod mirrors;
 #[path = "hard_cases/moving_lamps.rs"]
 mod moving_lamps;
+#[path = "hard_cases/numbers.rs"]
+mod numbers;
+#[path = "hard_cases/pictures.rs"]
+mod pictures;
 #[path = "hard_cases/pipeline.rs"]
 mod pipeline;
+#[path = "hard_cases/poincare.rs"]
+mod poincare;
 #[path = "hard_cases/scene.rs"]
 mod scene;
 

@@ -7,9 +7,12 @@
 
 use glam::DVec3;
 use proptest::prelude::*;
-use restframe::relativity::{Boost, Celerity, Event, FourVector, Transform, Worldline};
+use restframe::relativity::{
+    Boost, Celerity, Event, FourVector, Transform, Worldline, light_arriving,
+};
 use restframe::render::rows;
 use restframe::shot::{Ease, Filter, Splice, SpliceEffects, Track};
+use restframe::spectrum::{Beyond, Cardinal, planck};
 use restframe::trace::Samples;
 
 const EPSILON: f64 = f64::EPSILON;
@@ -284,6 +287,125 @@ proptest! {
             * (size(as_vector(e)) + position.x.length()) + size(as_vector(origin));
         prop_assert!((lab.t - time).abs() <= ROUNDINGS * EPSILON * (reach + time.abs()));
     }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::with_cases(2000) })]
+
+    /// Seen at a place X from where the point is now, its light left R ago: |X + βR| = R, and
+    /// R = γ(u·X) + γ√((u·X)² + X²), a sum or, where u·X < 0, γX² over the difference. The dot
+    /// product is rounded by ε|u||X|; on the way through the point's frame its direction is, by ε,
+    /// which is γε of a factor near the light cone.
+    #[test]
+    fn light_left_a_moving_point_when_the_quadratic_says(
+        u in celerity_to(6.0), (n, log_distance) in (direction(), -6.0..6.0_f64), now in -10.0..10.0_f64,
+    ) {
+        let x = n * 10_f64.powf(log_distance);
+        let line = Worldline { celerity: u, origin: Event::new(now, DVec3::ZERO) };
+        let seen_at = Transform::between(&Worldline::LAB, &line).event(Event::new(now, x));
+        let arrival = light_arriving(seen_at, DVec3::ZERO).expect("not at the point itself");
+        let light = Transform::between(&line, &Worldline::LAB).light(arrival.direction);
+        let found = arrival.distance * light.frequency_ratio;
+        let (gamma, along) = (u.lorentz_factor(), u.vector().dot(x));
+        let root = along.hypot(x.length());
+        let expected = if along >= 0.0 {
+            gamma * (along + root)
+        } else {
+            gamma * x.length_squared() / (root - along)
+        };
+        let bound = ROUNDINGS * EPSILON * (1.0 + 2.0 * gamma);
+        prop_assert!((found / expected - 1.0).abs() <= bound, "{found:e} {expected:e}");
+        let from = x + u.beta() * found;
+        prop_assert!((light.direction * found - from).length() <= bound * found);
+        prop_assert!(arrival.emission.t < seen_at.t && arrival.emission.x == DVec3::ZERO);
+    }
+
+    /// By another form, 1/(eˣ − 1) = e^(−x/2)/(2 sinh x/2), where neither over- nor underflows; the
+    /// oracle loses as much as the law itself.
+    #[test]
+    fn plancks_law_holds_in_the_form_of_the_hyperbolic_sine(
+        log_nm in -3.0..12.0_f64, log_x in -12.0..2.8_f64,
+    ) {
+        let nm = 10_f64.powf(log_nm);
+        let temperature_k = planck::C2 / nm / 10_f64.powf(log_x);
+        let x = planck::C2 / (nm * temperature_k);
+        let expected = planck::C1 / nm.powi(5) * ((-0.5 * x).exp() / (2.0 * (0.5 * x).sinh()));
+        let found = planck::radiance(nm, temperature_k);
+        let bound = 2.0 * 4.0 * EPSILON * x.max(4.0);
+        prop_assert!((found / expected - 1.0).abs() <= bound, "{found:e} {expected:e}");
+        let ln = planck::ln_radiance(nm, temperature_k);
+        let ln_bound = 4.0 * EPSILON * (5.0 * nm.ln().abs() + 2.0 * x + 40.0);
+        prop_assert!((ln - expected.ln()).abs() <= ln_bound, "{ln} {}", expected.ln());
+    }
+
+    /// λT alone decides, but for λ⁻⁵: by powers of two this is exact to the bit. By any factor, a
+    /// moving black body is one of temperature D·T; λ·D and D·T are rounded, which costs ε·x each.
+    #[test]
+    fn a_shifted_black_body_is_a_black_body(
+        (log_nm, log_x) in (-3.0..12.0_f64, -9.0..2.5_f64), octaves in -20..20_i32, log_d in -9.0..9.0_f64,
+    ) {
+        let nm = 10_f64.powf(log_nm);
+        let temperature_k = planck::C2 / nm / 10_f64.powf(log_x);
+        let here = planck::radiance(nm, temperature_k);
+        let by = 2_f64.powi(octaves);
+        prop_assert_eq!(planck::radiance(nm / by, temperature_k * by), here * by.powi(5));
+        let d = 10_f64.powf(log_d);
+        let moving = planck::ln_radiance(nm / d, temperature_k * d);
+        let expected = planck::ln_radiance(nm, temperature_k) + 5.0 * d.ln();
+        let size = 5.0 * (nm.ln().abs() + d.ln().abs()) + 4.0 * 10_f64.powf(log_x) + 80.0;
+        prop_assert!((moving - expected).abs() <= 4.0 * EPSILON * size, "{moving} {expected}");
+    }
+
+    /// Each piece by de Casteljau's construction from its four control points, which knows no
+    /// powers: both round by some ε of the largest of them.
+    #[test]
+    fn a_cardinal_spline_is_its_bezier_curve(
+        knots in prop::collection::vec((-3.0..3.0_f64, spline_value()), 2..8), tension in 0.0..=1.0_f64,
+        (piece, share) in (0..7_usize, 0.0..1.0_f64),
+    ) {
+        let mut nm = 300.0;
+        let points: Vec<(f64, f64)> = knots
+            .iter()
+            .map(|&(log_width, value)| {
+                nm += 10_f64.powf(log_width);
+                (nm, value)
+            })
+            .collect();
+        let curve = Cardinal::new(&points, tension, Beyond::Hold).expect("ascending and positive");
+        for &(nm, value) in &points {
+            prop_assert_eq!(curve.unclamped(nm), value);
+        }
+        let last = points.len() - 1;
+        let left = piece % last;
+        let slope = |i: usize| {
+            let (a, b) = (points[i.saturating_sub(1)], points[(i + 1).min(last)]);
+            (1.0 - tension) * (b.1 - a.1) / (b.0 - a.0)
+        };
+        let (p, q) = (points[left], points[left + 1]);
+        let lambda_nm = p.0 + share * (q.0 - p.0);
+        let third = (q.0 - p.0) / 3.0;
+        let control = [p.1, p.1 + slope(left) * third, q.1 - slope(left + 1) * third, q.1];
+        let t = (lambda_nm - p.0) / (q.0 - p.0);
+        let mut hull = control;
+        for count in (1..4).rev() {
+            for i in 0..count {
+                hull[i] = (1.0 - t) * hull[i] + t * hull[i + 1];
+            }
+        }
+        let size = control.iter().fold(0.0, |size: f64, c| size.max(c.abs()));
+        let found = curve.unclamped(lambda_nm);
+        prop_assert!((found - hull[0]).abs() <= 2.0 * ROUNDINGS * EPSILON * size, "{found} {}", hull[0]);
+        prop_assert!(curve.at(lambda_nm) >= 0.0 && found <= curve.peak() * (1.0 + 4.0 * EPSILON) + 4.0 * EPSILON * size);
+    }
+}
+
+/// A spline's value: none, everyday, or of any size.
+fn spline_value() -> impl Strategy<Value = f64> {
+    prop_oneof![
+        1 => Just(0.0),
+        3 => 0.0..1.0_f64,
+        2 => (-290.0..290.0_f64).prop_map(|e| 10_f64.powf(e)),
+    ]
 }
 
 /// Keys at ascending frames, with values of any size, or a few ulps apart: there rounding shows.

@@ -48,15 +48,19 @@ impl Worldline {
 }
 
 /// The Poincaré transform `to_from`: coordinates of one worldline's rest frame to another's.
-/// x′ = R·B(w)·x + offset, composed without going through the lab, so that two worldlines at
-/// γ = 10⁶ side by side are as exact as two at rest.
+/// x′ = R·B(w)·(x + before) + after, composed without going through the lab, so that two worldlines
+/// at γ = 10⁶ side by side are as exact as two at rest.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Transform {
     boost: Boost,
     /// None where it is the identity: collinear motion, or none.
     turn: Option<DMat3>,
-    /// Coordinates of the `from` frame's origin event in the `to` frame.
-    offset: FourVector,
+    /// Coordinates of the `from` frame's origin event from that of `to`, in the `from` frame if it
+    /// rests in the lab: far from the lab's origin, what an event there has in common with the
+    /// worldline's own then drops out before γ multiplies its rounding. Else zero …
+    before: FourVector,
+    /// … and the same in the `to` frame.
+    after: FourVector,
 }
 
 impl Transform {
@@ -64,7 +68,8 @@ impl Transform {
     pub const IDENTITY: Self = Self {
         boost: Boost::IDENTITY,
         turn: None,
-        offset: FourVector::ZERO,
+        before: FourVector::ZERO,
+        after: FourVector::ZERO,
     };
 
     /// The transform from the rest frame of `from` to that of `to`.
@@ -75,10 +80,16 @@ impl Transform {
         let (u, v) = (from.celerity, to.celerity);
         let w = v.seen_from(u);
         let gap = from.origin - to.origin;
+        let (before, after) = if u.is_rest() {
+            (gap, FourVector::ZERO)
+        } else {
+            (FourVector::ZERO, Boost::into_rest_of(v).vector(gap))
+        };
         Self {
             boost: Boost::into_rest_of(w),
             turn: wigner_turn(u, v, w),
-            offset: Boost::into_rest_of(v).vector(gap),
+            before,
+            after,
         }
     }
 
@@ -87,7 +98,7 @@ impl Transform {
     /// are the lab positions of the two origins at that time.
     pub fn snapshot(from_at: DVec3, to_at: DVec3) -> Self {
         Self {
-            offset: FourVector::new(0.0, from_at - to_at),
+            after: FourVector::new(0.0, from_at - to_at),
             ..Self::IDENTITY
         }
     }
@@ -99,8 +110,8 @@ impl Transform {
 
     /// An event in the `to` frame.
     pub fn event(&self, e: Event) -> Event {
-        let v = self.vector(FourVector::new(e.t, e.x));
-        Event::new(v.t, v.x) + self.offset
+        let v = self.vector(FourVector::new(e.t, e.x) + self.before);
+        Event::new(v.t, v.x) + self.after
     }
 
     /// A difference of events in the `to` frame.
@@ -195,6 +206,20 @@ mod tests {
         let b = worldline([0.3, 0.2, -0.5], 1.0, [1.0, 0.0, 0.0]);
         assert!(Transform::between(&a, &b).is_translation());
         assert_eq!(Transform::between(&a, &a), Transform::IDENTITY);
+    }
+
+    #[test]
+    fn a_lab_event_far_away_is_as_exact_beside_a_worldline_as_at_the_origin() {
+        let far = FourVector::new(1e9, DVec3::new(1e9, -1e9, 1e9));
+        let near = worldline([0.3, 0.2, -0.8], 0.5, [1.0, -2.0, 0.25]);
+        let line = Worldline {
+            origin: near.origin + far,
+            ..near
+        };
+        let e = Event::new(1.25, DVec3::new(-0.5, 2.0, 7.0));
+        let here = Transform::between(&Worldline::LAB, &near).event(e);
+        let there = Transform::between(&Worldline::LAB, &line).event(e + far);
+        assert_eq!(here, there);
     }
 
     #[test]
