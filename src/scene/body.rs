@@ -28,7 +28,8 @@ pub struct Instance {
 pub struct Geometry {
     /// Shared by their instances.
     pub meshes: Vec<Arc<Mesh>>,
-    /// In the order of the shot.
+    /// In the order of the names of their worldlines, then of their models: what does not depend on
+    /// the order of the shot. Where two bodies are met at one place, the first of them is seen.
     pub instances: Vec<Instance>,
     /// What the instances were placed by.
     pub(super) placing: Vec<Placing>,
@@ -107,17 +108,19 @@ pub struct SurfacePoint {
 }
 
 impl Geometry {
-    /// The bodies of a shot, placed as `placing` says. `worldlines` are indices of the models'
-    /// worldlines, `materials` those of each model's own materials.
+    /// The bodies of a shot, placed as `placing` says, in this `order` of the models. `worldlines`
+    /// are indices of the models' worldlines, `materials` those of each model's own materials.
     pub(super) fn new(
         library: &Library,
         placing: Vec<Placing>,
+        order: &[usize],
         worldlines: &[u32],
         materials: &[Vec<u32>],
     ) -> Self {
         let mut meshes: Vec<Arc<Mesh>> = Vec::new();
         let mut instances = Vec::new();
-        for (index, place) in placing.iter().enumerate() {
+        for &index in order {
+            let place = &placing[index];
             let loaded = library.model(index);
             let numbers: Vec<u32> = loaded
                 .meshes

@@ -52,9 +52,15 @@ impl Scene {
         frame: u32,
         earlier: Option<&Scene>,
     ) -> Result<Self, Mistakes> {
-        Resolver::new(shot, library, frame).run(|placing, worldlines, materials| match earlier {
-            Some(earlier) if earlier.geometry.placing == placing => Arc::clone(&earlier.geometry),
-            _ => Arc::new(Geometry::new(library, placing, worldlines, materials)),
+        Resolver::new(shot, library, frame).run(|placing, order, worldlines, materials| {
+            match earlier {
+                Some(earlier) if earlier.geometry.placing == placing => {
+                    Arc::clone(&earlier.geometry)
+                }
+                _ => Arc::new(Geometry::new(
+                    library, placing, order, worldlines, materials,
+                )),
+            }
         })
     }
 
@@ -64,7 +70,7 @@ impl Scene {
     /// As [`Scene::resolve`].
     pub fn check(shot: &Shot, library: &Library, frame: u32) -> Result<(), Mistakes> {
         Resolver::new(shot, library, frame)
-            .run(|_, _, _| Arc::default())
+            .run(|_, _, _, _| Arc::default())
             .map(|_| ())
     }
 }
@@ -94,7 +100,7 @@ impl<'a> Resolver<'a> {
 impl Resolver<'_> {
     fn run(
         mut self,
-        bodies: impl FnOnce(Vec<Placing>, &[u32], &[Vec<u32>]) -> Arc<Geometry>,
+        bodies: impl FnOnce(Vec<Placing>, &[usize], &[u32], &[Vec<u32>]) -> Arc<Geometry>,
     ) -> Result<Scene, Mistakes> {
         let shot = self.shot;
         let names = worldline_names(shot);
@@ -117,12 +123,13 @@ impl Resolver<'_> {
         for (i, place) in placing.iter().enumerate() {
             self.check_placing(i, place.rest_from_model);
         }
-        let lights = self.lights(&placing, &model_worldlines, &names);
+        let order = model_order(shot, &model_worldlines, &names);
+        let lights = self.lights(&placing, &order, &model_worldlines, &names);
         let background = self.background(index(shot.background.worldline.as_deref(), "camera"));
         let (Some(camera), true) = (camera, self.mistakes.is_empty()) else {
             return Err(Mistakes::new(&shot.places, self.mistakes));
         };
-        let geometry = bodies(placing, &model_worldlines, &of_models);
+        let geometry = bodies(placing, &order, &model_worldlines, &of_models);
         Ok(Scene {
             worldlines,
             worldline_names: names.into_iter().collect(),
@@ -180,6 +187,7 @@ impl Resolver<'_> {
     fn lights(
         &mut self,
         placing: &[Placing],
+        order: &[usize],
         model_worldlines: &[u32],
         names: &IndexSet<String>,
     ) -> Vec<Light> {
@@ -198,14 +206,15 @@ impl Resolver<'_> {
                 }
             }
         }
-        for (i, (place, worldline)) in placing.iter().zip(model_worldlines).enumerate() {
+        for &i in order {
+            let (place, worldline) = (&placing[i], model_worldlines[i]);
             let lamps = &self.library.model(i).file.lamps;
             for copy in place
                 .copies()
                 .take(if lamps.is_empty() { 0 } else { MOST_LIGHTS + 1 })
             {
                 for lamp in lamps {
-                    match Light::imported(lamp, *worldline as usize, &place.rest_from_model, copy) {
+                    match Light::imported(lamp, worldline as usize, &place.rest_from_model, copy) {
                         Ok(light) => lights.push(light),
                         Err(error) => {
                             let message = format!("lamp \"{}\": {error}", lamp.name);
@@ -280,6 +289,18 @@ fn worldline_index(
         name => name,
     };
     names.get_index_of(name).unwrap_or(0)
+}
+
+/// The models in an order that does not depend on that of the shot: by their worldlines' names,
+/// their own, and, where two share the name of one file, by all else that is said of them.
+fn model_order(shot: &Shot, worldlines: &[u32], names: &IndexSet<String>) -> Vec<usize> {
+    let mut order: Vec<usize> = (0..shot.model.len()).collect();
+    order.sort_by_cached_key(|&i| {
+        let model = &shot.model[i];
+        let worldline = &names[worldlines[i] as usize];
+        (worldline, model_name(model), format!("{model:?}"))
+    });
+    order
 }
 
 /// The model's name, or its file's stem.

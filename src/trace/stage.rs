@@ -11,6 +11,7 @@ use super::bvh::{Bvh, TreeRay};
 use super::mesh_tree::MeshTree;
 use crate::scene::{Geometry, Instance, Mesh};
 use glam::{DMat3, DVec3};
+use indexmap::IndexSet;
 use std::sync::Arc;
 
 /// A ray in one worldline's rest frame.
@@ -37,7 +38,10 @@ pub struct BodyHit {
 
 /// All bodies, ready for rays.
 pub struct Stage {
+    /// By index of the worldline.
     crowds: Vec<Option<Crowd>>,
+    /// The worldlines that have bodies, in the order of the geometry.
+    order: Vec<usize>,
 }
 
 impl Stage {
@@ -53,15 +57,22 @@ impl Stage {
         let crowds = (0..worldlines.unwrap_or(0))
             .map(|worldline| Crowd::build(geometry, worldline as u32, &meshes))
             .collect();
-        Self { crowds }
+        let order: IndexSet<usize> = geometry
+            .instances
+            .iter()
+            .map(|i| i.worldline as usize)
+            .collect();
+        Self {
+            crowds,
+            order: order.into_iter().collect(),
+        }
     }
 
-    /// The worldlines that have bodies.
+    /// The worldlines that have bodies, in the order of the geometry's instances. Where surfaces of
+    /// two are met at one event the first of them is seen, so it must not depend on how the shot is
+    /// written ([`Geometry::instances`]).
     pub fn worldlines(&self) -> impl Iterator<Item = usize> + '_ {
-        self.crowds
-            .iter()
-            .enumerate()
-            .filter_map(|(i, crowd)| crowd.as_ref().map(|_| i))
+        self.order.iter().copied()
     }
 
     /// The first body of `worldline` that the ray meets nearer than `reach` (rest-frame metres).
@@ -210,8 +221,8 @@ impl Member {
 }
 
 impl BodyHit {
-    /// Nearest first; at the same place the body and the triangle that stand first in the shot,
-    /// so that the picture does not depend on the order of traversal.
+    /// Nearest first; at the same place the body and the triangle that stand first in the
+    /// geometry, so that the picture does not depend on the order of traversal.
     pub(super) fn precedes(&self, other: &Self) -> bool {
         (self.t, self.instance, self.triangle) < (other.t, other.instance, other.triangle)
     }
