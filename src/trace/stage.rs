@@ -8,7 +8,7 @@
 
 use super::ball::{Ball, near_side};
 use super::bvh::{Bvh, TreeRay};
-use super::mesh_tree::MeshTree;
+use super::mesh_tree::{MeshTree, starting_point};
 use crate::scene::{Geometry, Instance, Mesh};
 use glam::{DMat3, DVec3};
 use indexmap::IndexSet;
@@ -81,6 +81,16 @@ impl Stage {
         self.crowds.get(worldline)?.as_ref()?.nearest(ray, reach)
     }
 
+    /// [`Stage::nearest`] by trying every triangle of every instance, with the same arithmetic but no
+    /// tree and no bound that a ray could miss: the same to the bit, only slowly. What the trees are
+    /// tested against.
+    pub fn nearest_of_all(&self, worldline: usize, ray: &RestRay, reach: f64) -> Option<BodyHit> {
+        self.crowds
+            .get(worldline)?
+            .as_ref()?
+            .nearest_of_all(ray, reach)
+    }
+
     /// Whether any body of `worldline` stands on the ray nearer than `reach`.
     #[inline]
     pub fn blocks(&self, worldline: usize, ray: &RestRay, reach: f64) -> bool {
@@ -121,6 +131,8 @@ pub(super) struct Member {
     pub(super) unit_from_rest: DMat3,
     /// Center of the mesh's ball in the rest frame.
     pub(super) center: DVec3,
+    /// How near, in units of the ball, a ray that starts on a surface may be to it.
+    pub(super) starting_point: f64,
     /// Whether triangles are passed through from behind. Front and back are those of the mesh
     /// itself, also in a mirrored instance (glTF 2.0 §3.7.4).
     pub(super) single_sided: bool,
@@ -183,6 +195,13 @@ impl Crowd {
         best
     }
 
+    fn nearest_of_all(&self, ray: &RestRay, reach: f64) -> Option<BodyHit> {
+        self.members.iter().fold(None, |best, member| {
+            let mesh = &self.meshes[member.mesh as usize];
+            mesh.nearest_of_all(member, ray, reach, best).or(best)
+        })
+    }
+
     fn blocks(&self, ray: &RestRay, reach: f64) -> bool {
         self.entering(ray, reach).is_some_and(|(_, unit_ray)| {
             self.tree.any(&unit_ray, |place| {
@@ -210,11 +229,14 @@ impl Crowd {
 
 impl Member {
     fn new(index: u32, instance: &Instance, mesh: &MeshTree) -> Self {
+        let unit_from_rest = (instance.rest_from_mesh.matrix3 * mesh.ball.radius).inverse();
+        let center = instance.rest_from_mesh.transform_point3(mesh.ball.center);
         Self {
             mesh: instance.mesh,
             instance: index,
-            unit_from_rest: (instance.rest_from_mesh.matrix3 * mesh.ball.radius).inverse(),
-            center: instance.rest_from_mesh.transform_point3(mesh.ball.center),
+            unit_from_rest,
+            center,
+            starting_point: starting_point(unit_from_rest, center),
             single_sided: !instance.double_sided,
         }
     }
