@@ -16,6 +16,8 @@ mod card;
 mod boosts;
 #[path = "hard_cases/doppler.rs"]
 mod doppler;
+#[path = "hard_cases/eye.rs"]
+mod eye;
 #[path = "hard_cases/geometry.rs"]
 mod geometry;
 #[path = "hard_cases/lamps.rs"]
@@ -26,6 +28,8 @@ mod light;
 mod pipeline;
 #[path = "hard_cases/scene.rs"]
 mod scene;
+#[path = "hard_cases/visibility.rs"]
+mod visibility;
 
 /// Every case, in the order of the card.
 fn sections() -> Vec<(&'static str, &'static [card::Case])> {
@@ -33,7 +37,8 @@ fn sections() -> Vec<(&'static str, &'static [card::Case])> {
         ("A. Boosts", boosts::CASES),
         ("B. Doppler factor and aberration", doppler::CASES),
         ("C. Radiometry and spectra", light::CASES),
-        ("D. Geometry and visibility", geometry::CASES),
+        ("D. Geometry", geometry::CASES),
+        ("D. Visibility", visibility::CASES),
         ("E. Lamps, mirrors, glass", lamps::CASES),
         ("G. The program as a whole", pipeline::CASES),
     ]
