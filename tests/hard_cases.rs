@@ -16,6 +16,8 @@ mod card;
 mod boosts;
 #[path = "hard_cases/doppler.rs"]
 mod doppler;
+#[path = "hard_cases/eye.rs"]
+mod eye;
 #[path = "hard_cases/files.rs"]
 mod files;
 #[path = "hard_cases/geometry.rs"]
@@ -38,6 +40,8 @@ mod pipeline;
 mod poincare;
 #[path = "hard_cases/scene.rs"]
 mod scene;
+#[path = "hard_cases/visibility.rs"]
+mod visibility;
 
 /// Every case, in the order of the card.
 fn sections() -> Vec<(&'static str, &'static [card::Case])> {
@@ -45,7 +49,8 @@ fn sections() -> Vec<(&'static str, &'static [card::Case])> {
         ("A. Boosts", boosts::CASES),
         ("B. Doppler factor and aberration", doppler::CASES),
         ("C. Radiometry and spectra", light::CASES),
-        ("D. Geometry and visibility", geometry::CASES),
+        ("D. Geometry", geometry::CASES),
+        ("D. Visibility", visibility::CASES),
         ("E. Moving lamps", moving_lamps::CASES),
         ("E. Shadows", lamps::CASES),
         ("E. Mirrors and glass", mirrors::CASES),

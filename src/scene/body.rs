@@ -28,11 +28,25 @@ pub struct Instance {
 pub struct Geometry {
     /// Shared by their instances.
     pub meshes: Vec<Arc<Mesh>>,
-    /// In the order of the shot.
+    /// In the order of the names of their worldlines, then of their models: what does not depend on
+    /// the order of the shot. Where two bodies are met at one place, the first of them is seen.
     pub instances: Vec<Instance>,
-    /// What the instances were placed by.
+    /// What they were made by.
+    pub(super) arrangement: Arrangement,
+}
+
+/// How the models of a shot become bodies in one image; lists by model in the order of the shot.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub(super) struct Arrangement {
     pub(super) placing: Vec<Placing>,
-    /// Which materials are boundaries of glass.
+    /// The models in the order of their bodies.
+    pub(super) order: Vec<usize>,
+    /// Indices of their worldlines.
+    pub(super) worldlines: Vec<u32>,
+    /// Indices of each model's own materials.
+    pub(super) materials: Vec<Vec<u32>>,
+    /// By material, whether it is a boundary of glass. It has two sides whatever its file says, or
+    /// light that enters would not come out.
     pub(super) glass: Vec<bool>,
 }
 
@@ -109,19 +123,19 @@ pub struct SurfacePoint {
 }
 
 impl Geometry {
-    /// The bodies of a shot, placed as `placing` says. `worldlines` are indices of the models'
-    /// worldlines, `materials` those of each model's own materials, of which those that are `glass`
-    /// have two sides whatever their file says, or light that enters would not come out.
-    pub(super) fn new(
-        library: &Library,
-        placing: Vec<Placing>,
-        worldlines: &[u32],
-        materials: &[Vec<u32>],
-        glass: Vec<bool>,
-    ) -> Self {
+    /// The bodies of a shot's models, arranged.
+    pub(super) fn new(library: &Library, arrangement: Arrangement) -> Self {
         let mut meshes: Vec<Arc<Mesh>> = Vec::new();
         let mut instances = Vec::new();
-        for (index, place) in placing.iter().enumerate() {
+        let Arrangement {
+            placing,
+            order,
+            worldlines,
+            materials,
+            glass,
+        } = &arrangement;
+        for &index in order {
+            let place = &placing[index];
             let loaded = library.model(index);
             let numbers: Vec<u32> = loaded
                 .meshes
@@ -149,8 +163,7 @@ impl Geometry {
         Self {
             meshes,
             instances,
-            placing,
-            glass,
+            arrangement,
         }
     }
 

@@ -1,6 +1,6 @@
 //! A shot and its files to the scene of one image.
 
-use super::body::{Geometry, Placing, placings};
+use super::body::{Arrangement, Geometry, placings};
 use super::camera::Camera;
 use super::library::Library;
 use super::light::Light;
@@ -54,15 +54,11 @@ impl Scene {
         frame: u32,
         earlier: Option<&Scene>,
     ) -> Result<Self, Mistakes> {
-        Resolver::new(shot, library, frame).run(|placing, worldlines, of_models, glass| {
-            match earlier.map(|scene| &scene.geometry) {
-                Some(bodies) if bodies.placing == placing && bodies.glass == glass => {
-                    Arc::clone(bodies)
-                }
-                _ => Arc::new(Geometry::new(
-                    library, placing, worldlines, of_models, glass,
-                )),
+        Resolver::new(shot, library, frame).run(|arrangement| match earlier {
+            Some(earlier) if earlier.geometry.arrangement == arrangement => {
+                Arc::clone(&earlier.geometry)
             }
+            _ => Arc::new(Geometry::new(library, arrangement)),
         })
     }
 
@@ -72,7 +68,7 @@ impl Scene {
     /// As [`Scene::resolve`].
     pub fn check(shot: &Shot, library: &Library, frame: u32) -> Result<(), Mistakes> {
         Resolver::new(shot, library, frame)
-            .run(|_, _, _, _| Arc::default())
+            .run(|_| Arc::default())
             .map(|_| ())
     }
 }
@@ -100,10 +96,7 @@ impl<'a> Resolver<'a> {
 }
 
 impl Resolver<'_> {
-    fn run(
-        mut self,
-        bodies: impl FnOnce(Vec<Placing>, &[u32], &[Vec<u32>], Vec<bool>) -> Arc<Geometry>,
-    ) -> Result<Scene, Mistakes> {
+    fn run(mut self, bodies: impl FnOnce(Arrangement) -> Arc<Geometry>) -> Result<Scene, Mistakes> {
         let shot = self.shot;
         let names = worldline_names(shot);
         let index =
@@ -115,23 +108,29 @@ impl Resolver<'_> {
             index(shot.camera.worldline.as_deref(), "lab"),
             lab_time,
         );
-        let model_worldlines: Vec<u32> = shot
+        let of_models: Vec<u32> = shot
             .model
             .iter()
             .map(|m| index(m.worldline.as_deref(), "lab") as u32)
             .collect();
-        let (materials, of_models) = self.materials();
+        let (materials, own_materials) = self.materials();
         let placing = placings(shot, self.frame);
         for (i, place) in placing.iter().enumerate() {
             self.check_placing(i, place.rest_from_model);
         }
-        let lights = self.lights(&placing, &model_worldlines, &names);
+        let arrangement = Arrangement {
+            placing,
+            order: model_order(shot, &of_models, &names),
+            worldlines: of_models,
+            materials: own_materials,
+            glass: materials.iter().map(|m| m.refraction.is_some()).collect(),
+        };
+        let lights = self.lights(&arrangement, &names);
         let background = self.background(index(shot.background.worldline.as_deref(), "camera"));
         let (Some(camera), true) = (camera, self.mistakes.is_empty()) else {
             return Err(Mistakes::new(&shot.places, self.mistakes));
         };
-        let glass = materials.iter().map(|m| m.refraction.is_some()).collect();
-        let geometry = bodies(placing, &model_worldlines, &of_models, glass);
+        let geometry = bodies(arrangement);
         Ok(Scene {
             worldlines,
             worldline_names: names.into_iter().collect(),
@@ -186,12 +185,7 @@ impl Resolver<'_> {
         }
     }
 
-    fn lights(
-        &mut self,
-        placing: &[Placing],
-        model_worldlines: &[u32],
-        names: &IndexSet<String>,
-    ) -> Vec<Light> {
+    fn lights(&mut self, arrangement: &Arrangement, names: &IndexSet<String>) -> Vec<Light> {
         let spectra = Spectra {
             shot: self.shot,
             library: self.library,
@@ -207,14 +201,15 @@ impl Resolver<'_> {
                 }
             }
         }
-        for (i, (place, worldline)) in placing.iter().zip(model_worldlines).enumerate() {
+        for &i in &arrangement.order {
+            let (place, worldline) = (&arrangement.placing[i], arrangement.worldlines[i]);
             let lamps = &self.library.model(i).file.lamps;
             for copy in place
                 .copies()
                 .take(if lamps.is_empty() { 0 } else { MOST_LIGHTS + 1 })
             {
                 for lamp in lamps {
-                    match Light::imported(lamp, *worldline as usize, &place.rest_from_model, copy) {
+                    match Light::imported(lamp, worldline as usize, &place.rest_from_model, copy) {
                         Ok(light) => lights.push(light),
                         Err(error) => {
                             let message = format!("lamp \"{}\": {error}", lamp.name);
@@ -288,6 +283,18 @@ fn worldline_index(
         name => name,
     };
     names.get_index_of(name).unwrap_or(0)
+}
+
+/// The models in an order that does not depend on that of the shot: by their worldlines' names,
+/// their own, and, where two share the name of one file, by all else that is said of them.
+fn model_order(shot: &Shot, worldlines: &[u32], names: &IndexSet<String>) -> Vec<usize> {
+    let mut order: Vec<usize> = (0..shot.model.len()).collect();
+    order.sort_by_cached_key(|&i| {
+        let model = &shot.model[i];
+        let worldline = &names[worldlines[i] as usize];
+        (worldline, model_name(model), format!("{model:?}"))
+    });
+    order
 }
 
 /// The model's name, or its file's stem.

@@ -107,6 +107,9 @@ fn in_shadow(tracer: &Tracer<'_>, surface: &Place, light: &Light, incoming: &Inc
     // From the smooth surface, or facets of a round body would shade each other where lamps rise.
     let off_surface = surface.point.bulge + surface.point.flat_normal * surface.point.clearance;
     let start = Event::new(surface.event.t, surface.event.x + off_surface);
+    // So much nearer to the lamp: what stands beyond it casts no shadow.
+    let nearer = off_surface.dot(-incoming.in_surface) / spacetime.path_ratio(incoming.doppler);
+    let distance = (incoming.distance - nearer).max(0.0);
     tracer.stage.worldlines().any(|worldline| {
         let seen = if worldline == surface.worldline {
             crate::relativity::Light {
@@ -123,7 +126,7 @@ fn in_shadow(tracer: &Tracer<'_>, surface: &Place, light: &Light, incoming: &Inc
             origin,
             direction: -seen.direction,
         };
-        let reach = incoming.distance * spacetime.path_ratio(seen.frequency_ratio);
+        let reach = distance * spacetime.path_ratio(seen.frequency_ratio);
         tracer.stage.blocks(worldline, &ray, reach)
     })
 }

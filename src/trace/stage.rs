@@ -8,9 +8,10 @@
 
 use super::ball::{Ball, near_side};
 use super::bvh::{Bvh, TreeRay};
-use super::mesh_tree::MeshTree;
+use super::mesh_tree::{MeshTree, starting_point};
 use crate::scene::{Geometry, Instance, Mesh};
 use glam::{DMat3, DVec3};
+use indexmap::IndexSet;
 use std::sync::Arc;
 
 /// A ray in one worldline's rest frame.
@@ -39,7 +40,10 @@ pub struct BodyHit {
 
 /// All bodies, ready for rays.
 pub struct Stage {
+    /// By index of the worldline.
     crowds: Vec<Option<Crowd>>,
+    /// The worldlines that have bodies, in the order of the geometry.
+    order: Vec<usize>,
 }
 
 impl Stage {
@@ -55,21 +59,38 @@ impl Stage {
         let crowds = (0..worldlines.unwrap_or(0))
             .map(|worldline| Crowd::build(geometry, worldline as u32, &meshes))
             .collect();
-        Self { crowds }
+        let order: IndexSet<usize> = geometry
+            .instances
+            .iter()
+            .map(|i| i.worldline as usize)
+            .collect();
+        Self {
+            crowds,
+            order: order.into_iter().collect(),
+        }
     }
 
-    /// The worldlines that have bodies.
+    /// The worldlines that have bodies, in the order of the geometry's instances. Where surfaces of
+    /// two are met at one event the first of them is seen, so it must not depend on how the shot is
+    /// written ([`Geometry::instances`]).
     pub fn worldlines(&self) -> impl Iterator<Item = usize> + '_ {
-        self.crowds
-            .iter()
-            .enumerate()
-            .filter_map(|(i, crowd)| crowd.as_ref().map(|_| i))
+        self.order.iter().copied()
     }
 
     /// The first body of `worldline` that the ray meets nearer than `reach` (rest-frame metres).
     #[inline]
     pub fn nearest(&self, worldline: usize, ray: &RestRay, reach: f64) -> Option<BodyHit> {
         self.crowds.get(worldline)?.as_ref()?.nearest(ray, reach)
+    }
+
+    /// [`Stage::nearest`] by trying every triangle of every instance, with the same arithmetic but no
+    /// tree and no bound that a ray could miss: the same to the bit, only slowly. What the trees are
+    /// tested against.
+    pub fn nearest_of_all(&self, worldline: usize, ray: &RestRay, reach: f64) -> Option<BodyHit> {
+        self.crowds
+            .get(worldline)?
+            .as_ref()?
+            .nearest_of_all(ray, reach)
     }
 
     /// Whether any body of `worldline` stands on the ray nearer than `reach`.
@@ -112,6 +133,8 @@ pub(super) struct Member {
     pub(super) unit_from_rest: DMat3,
     /// Center of the mesh's ball in the rest frame.
     pub(super) center: DVec3,
+    /// How near, in units of the ball, a ray that starts on a surface may be to it.
+    pub(super) starting_point: f64,
     /// Whether triangles are passed through from behind. Front and back are those of the mesh
     /// itself, also in a mirrored instance (glTF 2.0 §3.7.4).
     pub(super) single_sided: bool,
@@ -174,6 +197,13 @@ impl Crowd {
         best
     }
 
+    fn nearest_of_all(&self, ray: &RestRay, reach: f64) -> Option<BodyHit> {
+        self.members.iter().fold(None, |best, member| {
+            let mesh = &self.meshes[member.mesh as usize];
+            mesh.nearest_of_all(member, ray, reach, best).or(best)
+        })
+    }
+
     fn blocks(&self, ray: &RestRay, reach: f64) -> bool {
         self.entering(ray, reach).is_some_and(|(_, unit_ray)| {
             self.tree.any(&unit_ray, |place| {
@@ -201,19 +231,22 @@ impl Crowd {
 
 impl Member {
     fn new(index: u32, instance: &Instance, mesh: &MeshTree) -> Self {
+        let unit_from_rest = (instance.rest_from_mesh.matrix3 * mesh.ball.radius).inverse();
+        let center = instance.rest_from_mesh.transform_point3(mesh.ball.center);
         Self {
             mesh: instance.mesh,
             instance: index,
-            unit_from_rest: (instance.rest_from_mesh.matrix3 * mesh.ball.radius).inverse(),
-            center: instance.rest_from_mesh.transform_point3(mesh.ball.center),
+            unit_from_rest,
+            center,
+            starting_point: starting_point(unit_from_rest, center),
             single_sided: !instance.double_sided,
         }
     }
 }
 
 impl BodyHit {
-    /// Nearest first; at the same place the body and the triangle that stand first in the shot,
-    /// so that the picture does not depend on the order of traversal.
+    /// Nearest first; at the same place the body and the triangle that stand first in the
+    /// geometry, so that the picture does not depend on the order of traversal.
     pub(super) fn precedes(&self, other: &Self) -> bool {
         (self.t, self.instance, self.triangle) < (other.t, other.instance, other.triangle)
     }

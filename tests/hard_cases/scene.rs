@@ -17,6 +17,11 @@ pub(crate) struct Set {
 impl Set {
     /// Reads `text`, the whole of a shot.
     pub(crate) fn new(text: &str) -> Self {
+        Self::with(&[], text)
+    }
+
+    /// A shot that has further `files`, by name and content.
+    pub(crate) fn with(files: &[(&str, &str)], text: &str) -> Self {
         let folder = tempfile::tempdir().unwrap();
         let write =
             |name: &str, text: &str| std::fs::write(folder.path().join(name), text).unwrap();
@@ -30,6 +35,9 @@ impl Set {
             &std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/assets/sphere.obj"))
                 .unwrap(),
         );
+        for (name, content) in files {
+            write(name, content);
+        }
         let path = folder.path().join("case.toml");
         write("case.toml", text);
         let prepared =
