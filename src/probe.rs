@@ -1,9 +1,9 @@
 //! What the centre of one pixel sees: the event, the Doppler factor, the curve, the colour.
 
-use crate::render::{LabPath, View};
+use crate::render::{LabPath, View, development};
 use crate::scene::Scene;
 use crate::shot::Shot;
-use crate::spectrum::color_space::RGB_FROM_XYZ;
+use crate::spectrum::Sensor;
 use crate::trace::{Node, Root, Scratch, ShadeTrees};
 use glam::DVec3;
 use serde::Serialize;
@@ -21,9 +21,9 @@ pub struct Probe {
     pub wavelengths: Vec<f64>,
     /// Spectral radiance there, W·m⁻²·sr⁻¹·nm⁻¹.
     pub radiance: Vec<f64>,
-    /// Of that radiance, cd/m².
+    /// CIE 1931 XYZ of that radiance, cd/m²: 0 where the window leaves out the visible.
     pub xyz: [f64; 3],
-    /// Linear sRGB after exposure.
+    /// Linear sRGB after exposure; under `sensor.color = "bands"` the three bands after exposure.
     pub rgb: [f64; 3],
 }
 
@@ -71,9 +71,13 @@ pub fn probe(
         .trace(&[direction], &mut Scratch::default(), &mut trees);
     let root = trees.roots[0];
     let radiance = view.shader().radiance(&trees, root);
-    let xyz = view.shader().xyz_of(&radiance);
+    let channels = view.shader().xyz_of(&radiance);
+    let xyz = Sensor::cie1931(view.shader().axis()).xyz(&radiance);
     let gain = exposure.exp2() / 100.0;
-    let rgb = RGB_FROM_XYZ.map(|row| row.iter().zip(xyz).map(|(m, v)| m * v).sum::<f64>() * gain);
+    let rgb = development(shot, exposure).rgb_from_xyz.map(|row| {
+        let terms = row.iter().zip(channels).map(|(m, v)| m * v);
+        terms.sum::<f64>() * gain
+    });
     let hit = match root {
         Root::Sky(_) => None,
         Root::Surface(index) => Some(hit(view, scene, &trees.nodes[index as usize], direction)),

@@ -15,12 +15,10 @@ enum When {
     Word(&'static str),
     /// If it is a number other than this one.
     NumberOtherThan(f64),
-    /// If it is an ascending pair other than this one.
-    WindowOtherThan([f64; 2]),
     /// If it is a material's term whose weight is not the constant 0.
     Weighted,
 }
-use When::{Always, NumberOtherThan, Weighted, WindowOtherThan, Word};
+use When::{Always, NumberOtherThan, Weighted, Word};
 
 /// Pattern of the key path (`*` a name, `[]` an index), when it is refused, what to do.
 #[rustfmt::skip] // a line each
@@ -40,8 +38,6 @@ const LATER: &[(&str, When, &str)] = &[
     ("camera.projection", Word("fisheye"), "use \"perspective\""),
     ("effects.bounces", NumberOtherThan(4.0), "leave it out: nothing is mirrored or refracted"),
     ("splice[].effects.bounces", Always, "leave it out: nothing is mirrored or refracted"),
-    ("sensor.window", WindowOtherThan([360.0, 830.0]), "leave it out or write [360, 830]"),
-    ("sensor.color", Word("bands"), "use \"cie1931\""),
     ("sensor.tone", Word("filmic"), "use \"clip\""),
     ("accuracy.spectra", Word("lines"), "use \"grid\" or \"spline\""),
     ("accuracy.spectra", Word("rgb"), "use \"grid\", and doppler = \"off\" for no shift"),
@@ -58,7 +54,6 @@ pub(super) fn refusal(pattern: &str, path: &str, value: &DeValue<'_>) -> Option<
         Weighted => format!("`{path}` of non-zero weight is not supported yet"),
         Word(word) => format!("`{path}` = {word:?} is not supported yet"),
         NumberOtherThan(number) => format!("`{path}` other than {number} is not supported yet"),
-        WindowOtherThan(window) => format!("`{path}` other than {window:?} is not supported yet"),
     };
     Some((message, (*instead).to_owned()))
 }
@@ -71,21 +66,11 @@ impl When {
             NumberOtherThan(only) => {
                 value.is_integer() && walk::number(value).is_some_and(|number| number != *only)
             }
-            WindowOtherThan(only) => pair(value).is_some_and(|pair| {
-                0.0 < pair[0] && pair[0] < pair[1] && pair[1].is_finite() && pair != *only
-            }),
             Weighted => value.as_table().is_some_and(|term| {
                 term.get("weight")
                     .and_then(|weight| walk::number(weight.get_ref()))
                     != Some(0.0)
             }),
         }
-    }
-}
-
-fn pair(value: &DeValue<'_>) -> Option<[f64; 2]> {
-    match &value.as_array()?[..] {
-        [low, high] => Some([walk::number(low.get_ref())?, walk::number(high.get_ref())?]),
-        _ => None,
     }
 }
