@@ -53,7 +53,7 @@ fn light(bencher: Bencher<'_, '_>, sky: &str, doppler: f64) {
     let settings = Settings {
         called: &called,
         accuracy: &shot.accuracy,
-        window_nm: shot.sensor.window,
+        sensor: &shot.sensor,
         reach: 1.0,
         lamp_reach: 0.0,
     };

@@ -22,7 +22,7 @@ fn shade(bencher: Bencher<'_, '_>, spectra: &str, wavelengths: u32, lamp_doppler
     let settings = Settings {
         called: &called,
         accuracy: &prepared.shot.accuracy,
-        window_nm: prepared.shot.sensor.window,
+        sensor: &prepared.shot.sensor,
         reach: 1.0,
         lamp_reach: 1.0,
     };

@@ -24,7 +24,7 @@
 //! - [`trace`]: nearest hits over all worldlines, and shade trees. No spectrum.
 //! - [`shade`]: shade trees to light. The only place where a Doppler factor meets a spectrum is
 //!   [`shade::received`].
-//! - [`film`]: sums of XYZ to pictures. Every number in a file is finite.
+//! - [`film`]: sums of XYZ, or of bands, to pictures. Every number in a file is finite.
 //! - [`render`] and [`probe`]: all of it on one page, for an image and for a pixel.
 //! - [`queue`]: the images of a night, each whole or absent.
 //! - [`cli`]: arguments, messages, exit codes.

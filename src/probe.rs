@@ -1,10 +1,10 @@
 //! What the centre of one pixel sees: the event, the Doppler factor, the curve, the colour.
 
 use crate::relativity::Event;
-use crate::render::{LabPath, View};
+use crate::render::{LabPath, View, development};
 use crate::scene::Scene;
 use crate::shot::Shot;
-use crate::spectrum::color_space::RGB_FROM_XYZ;
+use crate::spectrum::Sensor;
 use crate::trace::{Branch, Node, Scratch, Seen, ShadeTrees, Surface, Term};
 use glam::DVec3;
 use serde::Serialize;
@@ -22,9 +22,9 @@ pub struct Probe {
     pub wavelengths: Vec<f64>,
     /// Spectral radiance there, W·m⁻²·sr⁻¹·nm⁻¹.
     pub radiance: Vec<f64>,
-    /// Of that radiance, cd/m².
+    /// CIE 1931 XYZ of that radiance, cd/m²: 0 where the window leaves out the visible.
     pub xyz: [f64; 3],
-    /// Linear sRGB after exposure.
+    /// Linear sRGB after exposure; under `sensor.color = "bands"` the three bands after exposure.
     pub rgb: [f64; 3],
     /// Everything that adds to what is seen: the first surface, and what is seen in mirrors and
     /// through glass, each after what it is seen in.
@@ -100,9 +100,13 @@ pub fn probe(
     let chain = chain(view, scene, trees.nodes_of(root), direction);
     let light = view.shader().radiance(&trees, root);
     let radiance = light.total();
-    let xyz = view.shader().xyz_of(&radiance);
+    let channels = view.shader().xyz_of(&radiance);
+    let xyz = Sensor::cie1931(view.shader().axis()).xyz(&radiance);
     let gain = exposure.exp2() / 100.0;
-    let rgb = RGB_FROM_XYZ.map(|row| row.iter().zip(xyz).map(|(m, v)| m * v).sum::<f64>() * gain);
+    let rgb = development(shot, exposure).rgb_from_xyz.map(|row| {
+        let terms = row.iter().zip(channels).map(|(m, v)| m * v);
+        terms.sum::<f64>() * gain
+    });
     Probe {
         frame,
         pixel,

@@ -2,7 +2,7 @@
 
 use exr::prelude::{AttributeValue, ReadChannels, ReadLayers, Text, Vec2};
 use restframe::film::{
-    Developed, EncodeError, Layers, Metadata, SOFTWARE, exr as exr_file, png as png_file,
+    Channels, Developed, EncodeError, Layers, Metadata, SOFTWARE, exr as exr_file, png as png_file,
 };
 use std::io::Cursor;
 
@@ -49,6 +49,8 @@ fn metadata() -> Metadata {
         frames_per_second: Some(23.976),
         camera_from_world: Some(camera_from_world),
         ndc_from_world: Some(camera_from_world),
+        channels: Channels::Xyz,
+        window_nm: None,
         exposure_stops: Some(1.0),
         samples_per_pixel: Some(16),
         frame: Some(3),
@@ -157,6 +159,43 @@ fn an_exr_tells_everything_that_was_decided_about_the_frame() {
     };
     let names: Vec<_> = names.iter().map(|name| name.bytes()).collect();
     assert_eq!(names, ["lab".as_bytes(), "Züge, fast".as_bytes()]);
+}
+
+#[test]
+fn files_of_bands_claim_no_colour() {
+    let metadata = Metadata {
+        channels: Channels::Bands,
+        window_nm: Some([4000.0, 14000.5]),
+        ..metadata()
+    };
+    let bytes = exr_bytes(&metadata);
+    let read = exr::meta::MetaData::read_from_buffered(Cursor::new(bytes), true).expect("reads");
+    let header = &read.headers[0];
+    let own = &header.own_attributes;
+    assert!(header.shared_attributes.chromaticities.is_none());
+    assert_eq!((own.white_luminance, own.adopted_neutral), (None, None));
+    let free = |name: &str| own.other.get(name.as_bytes()).cloned();
+    let string = |text: &str| {
+        Some(AttributeValue::Text(Text::from_slice_unchecked(
+            text.as_bytes(),
+        )))
+    };
+    assert_eq!(free("colorInteropID"), string("data"));
+    assert_eq!(free("restframe:color"), string("bands"));
+    let window = AttributeValue::FloatVec2(Vec2(4000.0, 14000.5));
+    assert_eq!(free("restframe:window"), Some(window));
+    assert_eq!(free("restframe:exposure"), Some(AttributeValue::F64(1.0)));
+
+    let reader = png::Decoder::new(Cursor::new(png_bytes(&metadata)));
+    let info = reader.read_info().expect("reads").info().clone();
+    let text = |keyword: &str| {
+        let mut texts = info.uncompressed_latin1_text.iter();
+        texts
+            .find(|chunk| chunk.keyword == keyword)
+            .map(|chunk| chunk.text.clone())
+    };
+    assert_eq!(text("restframe:color").as_deref(), Some("bands"));
+    assert_eq!(text("restframe:window").as_deref(), Some("4000 14000.5"));
 }
 
 #[test]

@@ -42,6 +42,8 @@ mod poincare;
 mod scene;
 #[path = "hard_cases/visibility.rs"]
 mod visibility;
+#[path = "hard_cases/windows.rs"]
+mod windows;
 
 /// Every case, in the order of the card.
 fn sections() -> Vec<(&'static str, &'static [card::Case])> {
@@ -49,6 +51,7 @@ fn sections() -> Vec<(&'static str, &'static [card::Case])> {
         ("A. Boosts", boosts::CASES),
         ("B. Doppler factor and aberration", doppler::CASES),
         ("C. Radiometry and spectra", light::CASES),
+        ("C. Windows of the sensor", windows::CASES),
         ("D. Geometry", geometry::CASES),
         ("D. Visibility", visibility::CASES),
         ("E. Moving lamps", moving_lamps::CASES),

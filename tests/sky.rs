@@ -119,7 +119,7 @@ fn shader(prepared: &Prepared) -> Shader {
     let settings = Settings {
         called: &called,
         accuracy: &shot.accuracy,
-        window_nm: shot.sensor.window,
+        sensor: &shot.sensor,
         reach: 175.0,
         lamp_reach: 1.0,
     };

@@ -5,6 +5,7 @@ use crate::probe::{Probe, ProbeNode, probe};
 use crate::queue::Prepared;
 use crate::render::{View, motion_mistake, rows, spliced};
 use crate::scene::Scene;
+use crate::shot::SensorColor;
 use crate::trace::Stage;
 
 /// Answers for the centre of one pixel, under the effects of the splice that it lies in.
@@ -41,11 +42,11 @@ pub(super) fn run(arguments: &ProbeArguments) -> Result<(), Failed> {
     if arguments.json {
         print_json(&answer)
     } else {
-        print(&described(&answer))
+        print(&described(&answer, shot.sensor.color))
     }
 }
 
-fn described(probe: &Probe) -> String {
+fn described(probe: &Probe, color: SensorColor) -> String {
     let [x, y] = probe.pixel;
     let mut lines = vec![format!("frame {}, pixel {x} {y}", probe.frame)];
     match &probe.hit {
@@ -92,13 +93,18 @@ fn described(probe: &Probe) -> String {
         .filter(|(_, radiance)| **radiance > 0.0);
     if let Some((nm, radiance)) = peak {
         lines.push(format!(
-            "  radiance    peaks at {nm:.1} nm: {radiance:.6e} W/m2/sr/nm"
+            "  radiance    peaks at {}: {radiance:.6e} W/m2/sr/nm",
+            length(*nm)
         ));
     }
     let [bx, by, bz] = probe.xyz;
     let [r, g, b] = probe.rgb;
     lines.push(format!("  XYZ         {bx:.6e} {by:.6e} {bz:.6e} cd/m2"));
-    lines.push(format!("  linear sRGB {r:.6} {g:.6} {b:.6} after exposure"));
+    let channels = match color {
+        SensorColor::Cie1931 => "linear sRGB",
+        SensorColor::Bands => "bands      ",
+    };
+    lines.push(format!("  {channels} {r:.6} {g:.6} {b:.6} after exposure"));
     lines.join("\n")
 }
 
@@ -116,4 +122,13 @@ fn link(index: usize, node: &ProbeNode) -> String {
         _ => "seen directly".to_owned(),
     };
     format!("  {index:>3}  {what}, {how}")
+}
+
+/// A wavelength, nm: in powers of ten from far outside the visible.
+fn length(nm: f64) -> String {
+    if (10.0..1e5).contains(&nm) {
+        format!("{nm:.1} nm")
+    } else {
+        format!("{nm:.4e} nm")
+    }
 }

@@ -1,6 +1,7 @@
-//! From the film's XYZ to linear Rec.709 after exposure, and from there to eight bits.
+//! From the film's XYZ to linear Rec.709 after exposure, or from its bands to bands, and from there
+//! to eight bits.
 //!
-//! 0 stops makes 100 cd/m² of the adopted white 1.0; every stop more doubles. Nothing is
+//! 0 stops makes 100 cd/m² of the adopted white 1.0, 100 W·m⁻²·sr⁻¹ of a band; every stop more doubles. Nothing is
 //! clipped here but what a float cannot hold: beaming spans more than its 76 decades.
 
 use super::Film;
@@ -9,9 +10,10 @@ use rayon::prelude::*;
 /// How a film is developed.
 #[derive(Debug, Clone, Copy)]
 pub struct Development {
-    /// Linear Rec.709 from CIE XYZ, rows R, G, B; white at Y = 1 becomes (1, 1, 1).
+    /// Linear Rec.709 from CIE XYZ, rows R, G, B; white at Y = 1 becomes (1, 1, 1). For bands the
+    /// identity: each is a colour as it stands.
     pub rgb_from_xyz: [[f64; 3]; 3],
-    /// Exposure in stops: 0 makes 100 cd/m² 1.0, +1 doubles.
+    /// Exposure in stops: 0 makes 100 cd/m² (W·m⁻²·sr⁻¹ of a band) 1.0, +1 doubles.
     pub exposure_stops: f64,
     /// The display's transfer from linear to encoded value, both 0 to 1: the sRGB curve.
     /// Used by [`png::to_rgb8`](super::png::to_rgb8), not for [`Developed`].
@@ -21,7 +23,7 @@ pub struct Development {
 /// A developed film: linear light, always finite.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Developed {
-    /// Linear Rec.709, one for each pixel. 1 is the display's white; negative outside its gamut.
+    /// Linear Rec.709, or bands, one for each pixel. 1 is the display's white; negative outside its gamut.
     pub linear: Vec<[f32; 3]>,
     /// How many values, on the film or after exposure, were not finite or beyond `f32`.
     /// Infinite and too large ones are clamped to ±`f32::MAX`, NaN becomes 0.

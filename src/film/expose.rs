@@ -1,45 +1,48 @@
-//! Metering: the exposure that a film calls for, from the percentiles of its luminance.
+//! Metering: the exposure that a film calls for, from the percentiles of its luminance, or of the
+//! mean of its bands.
 
-use super::Film;
+use super::{Channels, Film};
 
-/// The percentile of luminance that automatic exposure looks at.
+/// The percentile that automatic exposure looks at.
 const METERED_PERCENTILE: f64 = 95.0;
 /// The linear value it is brought to.
 const METERED_VALUE: f64 = 0.8;
-/// The luminance that 0 stops make 1.0, cd/m².
+/// What 0 stops make 1.0: luminance, cd/m², or a band's radiance, W·m⁻²·sr⁻¹.
 pub(super) const WHITE_AT_ZERO_STOPS: f64 = 100.0;
 
-/// The `p`th percentile of luminance, cd/m²: the least value that at least `p` percent of the
-/// pixels do not exceed (nearest rank). `p` is held to 0 … 100. NaN and negative luminance count
+/// The `p`th percentile of luminance, cd/m², or of the mean of the bands, W·m⁻²·sr⁻¹: the least value that at least `p` percent of the
+/// pixels do not exceed (nearest rank). `p` is held to 0 … 100. NaN and negative values count
 /// as 0, infinite as `f32::MAX`; an empty film gives 0.
 pub fn luminance_percentile(film: &Film, p: f64) -> f32 {
-    percentile(film.xyz.iter().map(luminance).collect(), p)
+    percentile(metered(film).collect(), p)
 }
 
-/// The stops that bring the 95th percentile of luminance to 0.8; `None` if all is black.
+/// The stops that bring the 95th percentile to 0.8; `None` if all is black.
 ///
 /// Where more than 95 % of the picture is black, the percentile is taken of the lit pixels, so
 /// that a few lights in the dark are exposed for too.
 pub fn auto_exposure(film: &Film) -> Option<f64> {
-    let mut metered = luminance_percentile(film, METERED_PERCENTILE);
-    if metered <= 0.0 {
-        let lit = film
-            .xyz
-            .iter()
-            .map(luminance)
-            .filter(|&y| y > 0.0)
-            .collect();
-        metered = percentile(lit, METERED_PERCENTILE);
+    let mut value = luminance_percentile(film, METERED_PERCENTILE);
+    if value <= 0.0 {
+        let lit = metered(film).filter(|&y| y > 0.0).collect();
+        value = percentile(lit, METERED_PERCENTILE);
     }
-    (metered > 0.0).then(|| (METERED_VALUE * WHITE_AT_ZERO_STOPS / f64::from(metered)).log2())
+    (value > 0.0).then(|| (METERED_VALUE * WHITE_AT_ZERO_STOPS / f64::from(value)).log2())
 }
 
-fn luminance(xyz: &[f32; 3]) -> f32 {
-    if xyz[1] > 0.0 {
-        xyz[1].min(f32::MAX)
-    } else {
-        0.0
-    }
+/// What metering looks at: luminance, or the mean of the bands; never negative, always finite.
+fn metered(film: &Film) -> impl Iterator<Item = f32> {
+    film.xyz.iter().map(|channels| {
+        let value = match film.channels {
+            Channels::Xyz => channels[1],
+            Channels::Bands => channels.iter().map(|band| band / 3.0).sum(),
+        };
+        if value > 0.0 {
+            value.min(f32::MAX)
+        } else {
+            0.0
+        }
+    })
 }
 
 fn percentile(mut values: Vec<f32>, p: f64) -> f32 {
@@ -82,6 +85,16 @@ mod tests {
         let stops = auto_exposure(&film((1..=100).map(|y| y as f32 * 3.0)));
         let value = 95.0 * 3.0 / 100.0 * stops.expect("lit").exp2();
         assert!((value - 0.8).abs() < 1e-12, "{value}");
+    }
+
+    #[test]
+    fn bands_are_metered_by_their_mean() {
+        let film = Film {
+            channels: Channels::Bands,
+            xyz: vec![[240.0, 0.0, 0.0]; 9],
+            ..Film::default()
+        };
+        assert_eq!(auto_exposure(&film), Some(0.0));
     }
 
     #[test]

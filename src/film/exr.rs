@@ -1,4 +1,4 @@
-//! OpenEXR: linear Rec.709 and the film's layers in 32-bit floats, with everything that was
+//! OpenEXR: linear Rec.709, or the radiance of three bands, and the film's layers in 32-bit floats, with everything that was
 //! decided about the frame.
 //!
 //! One part, ZIP in blocks of 16 rows. Channels R, G, B, and one for each layer under its plain
@@ -12,7 +12,7 @@
 //! are compressed on the calling thread: the encoder would otherwise start threads of its own
 //! beside those that were asked for.
 
-use super::{Developed, EncodeError, Layers, Metadata, check_length};
+use super::{Channels, Developed, EncodeError, Layers, Metadata, check_length};
 use ::exr::meta::attribute::Chromaticities;
 use ::exr::prelude::*;
 use std::io::Cursor;
@@ -62,7 +62,7 @@ pub fn encode(
         AnyChannels::sort(channels),
     );
     let mut image = Image::from_layer(layer);
-    image.attributes.chromaticities = Some(REC709);
+    image.attributes.chromaticities = is_color(metadata).then_some(REC709);
 
     let mut file = Cursor::new(Vec::new());
     image.write().non_parallel().to_buffered(&mut file)?;
@@ -70,6 +70,10 @@ pub fn encode(
     sort_attributes(&mut bytes)
         .ok_or_else(|| Error::Invalid("the header just written cannot be read again".into()))?;
     Ok(bytes)
+}
+
+fn is_color(metadata: &Metadata) -> bool {
+    metadata.channels == Channels::Xyz
 }
 
 fn attributes(metadata: &Metadata) -> LayerAttributes {
@@ -85,7 +89,7 @@ fn attributes(metadata: &Metadata) -> LayerAttributes {
             .ndc_from_world
             .map(|matrix| matrix.map(|x| x as f32)),
         white_luminance: metadata.white_luminance(),
-        adopted_neutral: Some(D65),
+        adopted_neutral: is_color(metadata).then_some(D65),
         ..LayerAttributes::default()
     };
     let free = free_attributes(metadata).into_iter();
@@ -96,13 +100,20 @@ fn attributes(metadata: &Metadata) -> LayerAttributes {
 }
 
 /// The attributes that OpenEXR has no field for.
-fn free_attributes(metadata: &Metadata) -> [(&'static str, Option<AttributeValue>); 9] {
-    use AttributeValue::{F64, FloatVec3, I32, Text, TextVector};
+fn free_attributes(metadata: &Metadata) -> [(&'static str, Option<AttributeValue>); 11] {
+    use AttributeValue::{F64, FloatVec2, FloatVec3, I32, Text, TextVector};
     let whole = |value: u32| I32(i32::try_from(value).unwrap_or(i32::MAX));
     let vector = |[x, y, z]: [f64; 3]| FloatVec3((x as f32, y as f32, z as f32));
     let names = || TextVector(metadata.worldlines.iter().map(|name| text(name)).collect());
+    let window = |nm: [f64; 2]| FloatVec2(Vec2(nm[0] as f32, nm[1] as f32));
+    let (interop, color) = match metadata.channels {
+        Channels::Xyz => ("lin_rec709_scene", None),
+        Channels::Bands => ("data", Some("bands")),
+    };
     [
-        ("colorInteropID", Some(Text(text("lin_rec709_scene")))),
+        ("colorInteropID", Some(Text(text(interop)))),
+        ("restframe:color", color.map(|color| Text(text(color)))),
+        ("restframe:window", metadata.window_nm.map(window)),
         ("samplesPerPixel", metadata.samples_per_pixel.map(whole)),
         ("restframe:frame", metadata.frame.map(whole)),
         ("restframe:time", metadata.time_s.map(F64)),

@@ -1,7 +1,9 @@
 //! What a picture file says about itself beside its pixels, the same for PNG and EXR.
 //!
-//! Everything is optional and only what is given is written. Wall-clock facts have no place
+//! All but the channels is optional and only what is given is written. Wall-clock facts have no place
 //! here: equal shots give equal bytes.
+
+use super::Channels;
 
 /// What this program calls itself in files.
 pub const SOFTWARE: &str = concat!("restframe ", env!("CARGO_PKG_VERSION"));
@@ -23,8 +25,15 @@ pub struct Metadata {
     pub camera_from_world: Option<[f64; 16]>,
     /// World to normalized device space, `worldToNDC` (EXR only), ordered as the other.
     pub ndc_from_world: Option<[f64; 16]>,
-    /// Exposure in stops, `restframe:exposure`; it also gives the EXR's `whiteLuminance`, the
-    /// cd/m² of RGB (1, 1, 1): 100 / 2^stops.
+    /// What R, G and B are made of. Of bands the files say `restframe:color`, "bands", and nothing
+    /// that only holds for colours: in the EXR neither `chromaticities`, `adoptedNeutral` nor
+    /// `whiteLuminance`, and the `colorInteropID` of data that is no colour.
+    pub channels: Channels,
+    /// Shortest and longest wavelength seen, nm, `restframe:window`.
+    pub window_nm: Option<[f64; 2]>,
+    /// Exposure in stops, `restframe:exposure`: what 1.0 is, 100 / 2^stops in cd/m² of white, or in
+    /// W·m⁻²·sr⁻¹ of a band. For colours it also gives the EXR's `whiteLuminance`, the cd/m² of
+    /// RGB (1, 1, 1).
     pub exposure_stops: Option<f64>,
     /// Samples per pixel, `samplesPerPixel` (PNG: `restframe:samples`).
     pub samples_per_pixel: Option<u32>,
@@ -44,8 +53,11 @@ pub struct Metadata {
 }
 
 impl Metadata {
-    /// RGB (1, 1, 1) in cd/m², if the exposure is known and `f32` can hold it.
+    /// RGB (1, 1, 1) in cd/m², if it is a colour, the exposure is known and `f32` can hold it.
     pub(super) fn white_luminance(&self) -> Option<f32> {
+        if self.channels != Channels::Xyz {
+            return None;
+        }
         let white = super::expose::WHITE_AT_ZERO_STOPS / self.exposure_stops?.exp2();
         Some(white as f32).filter(|white| white.is_normal())
     }

@@ -1,7 +1,8 @@
 //! The film: what the sensor gathered, and the pictures made from it.
 //!
-//! In: a [`Film`] of CIE XYZ in cd/m² (Y is luminance) with optional layers of scene data. Out:
-//! linear Rec.709 after exposure ([`develop`]), PNG and OpenEXR files as bytes in memory
+//! In: a [`Film`] of CIE XYZ in cd/m² (Y is luminance), or of three bands' radiance in W·m⁻²·sr⁻¹,
+//! with optional layers of scene data. Out: linear Rec.709, or the bands, after exposure
+//! ([`develop`]), PNG and OpenEXR files as bytes in memory
 //! ([`png::encode`], [`exr::encode`]), and the differences of two pictures ([`compare`]).
 //! Pixels are row-major, top row first. Invariant: equal input gives equal bytes, whatever the
 //! number of threads; so no file holds a date, a host or a duration.
@@ -25,10 +26,24 @@ pub struct Film {
     pub width: u32,
     /// Rows, at least 1.
     pub height: u32,
-    /// CIE 1931 tristimulus values in cd/m², one for each pixel.
+    /// What `xyz` holds.
+    pub channels: Channels,
+    /// CIE 1931 tristimulus values in cd/m², or the radiance of three bands in W·m⁻²·sr⁻¹, one for
+    /// each pixel.
     pub xyz: Vec<[f32; 3]>,
     /// What else is known of each pixel.
     pub layers: Layers,
+}
+
+/// What the three channels of a film hold.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub enum Channels {
+    /// CIE 1931 tristimulus values, cd/m².
+    #[default]
+    Xyz,
+    /// Radiance in the long, middle and short third of the sensor's window, W·m⁻²·sr⁻¹; shown as
+    /// red, green and blue.
+    Bands,
 }
 
 /// Scene data beside the light, one value for each pixel, of the first surface that its centre

@@ -3,7 +3,7 @@
 //! Text that is plain ASCII goes into tEXt, any other into iTXt. pHYs says square pixels of no
 //! particular size.
 
-use super::{Developed, EncodeError, Metadata, check_length};
+use super::{Channels, Developed, EncodeError, Metadata, check_length};
 
 /// Linear light to 8-bit values: `encode` (the sRGB transfer), clipped to 0 … 1, rounded to
 /// nearest. Three bytes a pixel.
@@ -59,6 +59,8 @@ fn texts(metadata: &Metadata) -> impl Iterator<Item = (&'static str, String)> {
         ..
     } = metadata;
     let number = |value: Option<f64>| value.map(|value| value.to_string());
+    let window = metadata.window_nm.map(|[from, to]| format!("{from} {to}"));
+    let bands = (metadata.channels == Channels::Bands).then(|| "bands".to_owned());
     let beta = metadata.beta.map(|[x, y, z]| format!("{x} {y} {z}"));
     let names = (!worldlines.is_empty()).then(|| serde_json::json!(worldlines).to_string());
     [
@@ -72,6 +74,8 @@ fn texts(metadata: &Metadata) -> impl Iterator<Item = (&'static str, String)> {
         ("restframe:time", number(metadata.time_s)),
         ("restframe:beta", beta),
         ("restframe:gamma", number(metadata.lorentz_factor)),
+        ("restframe:color", bands),
+        ("restframe:window", window),
         ("restframe:exposure", number(metadata.exposure_stops)),
         (
             "restframe:samples",

@@ -1,9 +1,9 @@
 //! A film to the files of one frame, as bytes.
 
-use crate::film::{self, Development, EncodeError, Film, Metadata, develop};
+use crate::film::{self, EncodeError, Film, Metadata, develop};
+use crate::render::development;
 use crate::scene::Scene;
-use crate::shot::{Format, Shot};
-use crate::spectrum::color_space::{RGB_FROM_XYZ, encode};
+use crate::shot::{Format, Sensor, Shot};
 
 /// The files of a frame: extension and content, and how many values had to be clamped.
 pub(super) struct Pictures {
@@ -25,19 +25,19 @@ pub(super) fn pictures(
     exposure_stops: f64,
     samples: u32,
 ) -> Result<Pictures, EncodeError> {
-    let development = Development {
-        rgb_from_xyz: RGB_FROM_XYZ,
-        exposure_stops,
-        encode,
-    };
+    let development = development(shot, exposure_stops);
     let developed = develop(film, &development);
-    let metadata = metadata(shot, frame, scene, exposure_stops, samples);
+    let metadata = Metadata {
+        channels: film.channels,
+        window_nm: window_nm(&shot.sensor),
+        ..metadata(shot, frame, scene, exposure_stops, samples)
+    };
     let (width, height) = (film.width, film.height);
     let mut files = Vec::new();
     for format in &shot.output.formats {
         files.push(match format {
             Format::Png => {
-                let rgb = film::png::to_rgb8(&developed, encode);
+                let rgb = film::png::to_rgb8(&developed, development.encode);
                 ("png", film::png::encode(width, height, &rgb, &metadata)?)
             }
             Format::Exr => (
@@ -73,4 +73,10 @@ fn metadata(shot: &Shot, frame: u32, scene: &Scene, exposure_stops: f64, samples
         shot: Some(shot.places.text().to_owned()),
         ..Metadata::default()
     }
+}
+
+/// The window, where a picture is not what an eye would see.
+fn window_nm(sensor: &Sensor) -> Option<[f64; 2]> {
+    let eye = Sensor::default();
+    ((sensor.color, sensor.window) != (eye.color, eye.window)).then_some(sensor.window)
 }

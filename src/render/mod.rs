@@ -1,10 +1,11 @@
 //! The renderer on one page: plan, trace, shade, film.
 
-use crate::film::Film;
+use crate::film::{Channels, Development, Film};
 use crate::plan::{self, Called};
 use crate::scene::Scene;
 use crate::shade::{Settings, Shader};
-use crate::shot::{Effects, Layer, Shot, Splice, Switch};
+use crate::shot::{Effects, Layer, SensorColor, Shot, Splice, Switch};
+use crate::spectrum::color_space;
 use crate::trace::{Samples, Spacetime, Stage, Surface, Tracer};
 use glam::DVec3;
 use rayon::prelude::*;
@@ -69,7 +70,7 @@ impl<'a> View<'a> {
         let settings = Settings {
             called: &called,
             accuracy: &shot.accuracy,
-            window_nm: shot.sensor.window,
+            sensor: &shot.sensor,
             reach: hops * to_camera,
             lamp_reach: stage
                 .worldlines()
@@ -149,7 +150,7 @@ pub fn render(
     };
     let samples = Samples::new(options.samples, shot.image.filter);
     let bands = (options.height as usize).div_ceil(BAND);
-    let mut film = empty_film(options);
+    let mut film = empty_film(options, channels(shot));
     let mut parts = split_bands(&mut film, bands);
     parts
         .par_iter_mut()
@@ -168,6 +169,27 @@ pub fn render(
             }
         });
     Ok(film)
+}
+
+/// What the channels of a shot's films hold.
+pub fn channels(shot: &Shot) -> Channels {
+    match shot.sensor.color {
+        SensorColor::Cie1931 => Channels::Xyz,
+        SensorColor::Bands => Channels::Bands,
+    }
+}
+
+/// How a shot's films are developed.
+pub fn development(shot: &Shot, exposure_stops: f64) -> Development {
+    const IDENTITY: [[f64; 3]; 3] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+    Development {
+        rgb_from_xyz: match channels(shot) {
+            Channels::Xyz => color_space::RGB_FROM_XYZ,
+            Channels::Bands => IDENTITY,
+        },
+        exposure_stops,
+        encode: color_space::encode,
+    }
 }
 
 /// Effects of a splice: the shot's, but for what it changes.

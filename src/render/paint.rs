@@ -1,7 +1,7 @@
 //! Pixels: their rays traced, shaded and averaged, a band of rows at a time.
 
 use super::{LabPath, Options, View};
-use crate::film::{Film, Layers};
+use crate::film::{Channels, Film, Layers};
 use crate::shade::ShadeScratch;
 use crate::shot::Layer;
 use crate::trace::{Node, Samples, Scratch, Seen, ShadeTrees};
@@ -21,7 +21,7 @@ pub(super) struct Part<'a> {
     layers: Vec<(Layer, &'a mut [f32])>,
 }
 
-pub(super) fn empty_film(options: &Options) -> Film {
+pub(super) fn empty_film(options: &Options, channels: Channels) -> Film {
     let pixels = options.width as usize * options.height as usize;
     let layer = |which: Layer, background: f32| {
         options
@@ -32,6 +32,7 @@ pub(super) fn empty_film(options: &Options) -> Film {
     Film {
         width: options.width,
         height: options.height,
+        channels,
         xyz: vec![[0.0; 3]; pixels],
         layers: Layers {
             doppler: layer(Layer::Doppler, 0.0),

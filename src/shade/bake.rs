@@ -6,7 +6,7 @@ use super::table::XyzTable;
 use super::thermal::Glow;
 use crate::plan::Called;
 use crate::scene::{Material, Reflectance, Scene, Thermal};
-use crate::shot::{Accuracy, Spectra};
+use crate::shot::{self, Accuracy, Spectra};
 use crate::spectrum::{Sensor, Spectrum};
 use crate::trace::Term;
 use std::sync::Arc;
@@ -85,8 +85,8 @@ pub struct Settings<'a> {
     pub called: &'a Called,
     /// How spectra are held.
     pub accuracy: &'a Accuracy,
-    /// The sensor's band, nm.
-    pub window_nm: [f64; 2],
+    /// The band that is seen, and how.
+    pub sensor: &'a shot::Sensor,
     /// Largest |ln D| between a surface and the camera.
     pub reach: f64,
     /// Largest |ln D| between a lamp and a surface.
@@ -225,14 +225,15 @@ impl Bake<'_> {
         })
     }
 
-    /// A table over |ln D| up to `reach`, or at D = 1 alone where curves do not shift.
+    /// A table over |ln D| up to `reach`, or at D = 1 alone where curves do not shift or sums take
+    /// its place.
     fn table(
         &self,
         reach: f64,
         support_nm: Option<[f64; 2]>,
         read: impl FnMut(f64, &mut [f32]) -> f64,
     ) -> XyzTable {
-        let reach = if self.settings.called.doppler {
+        let reach = if self.settings.called.doppler && self.tabulated {
             reach
         } else {
             0.0

@@ -13,8 +13,8 @@ pub(super) struct Curve {
 }
 
 impl Curve {
-    /// With accuracy.spectra = "grid" the curve is baked for |ln D| up to `reach`; with "spline" it
-    /// is not, and `reach` is None. A reflectance has limit 1: what a spline overshoots between
+    /// With accuracy.spectra = "grid" the curve is baked for |ln D| up to `reach`, unless that would
+    /// be too large a table; with "spline" it is not, and `reach` is None. A reflectance has limit 1: what a spline overshoots between
     /// authored points is clamped.
     pub(super) fn new(
         spectrum: &Arc<Spectrum>,
@@ -32,7 +32,7 @@ impl Curve {
             baked: None,
         };
         curve.baked =
-            reach.map(|reach| Baked::new(axis, reach, curve.support_nm(), |nm| curve.at(nm)));
+            reach.and_then(|reach| Baked::new(axis, reach, curve.support_nm(), |nm| curve.at(nm)));
         curve
     }
 

@@ -1,4 +1,6 @@
-//! Shade trees to light: spectral radiance for whoever wants the curve, XYZ for the film.
+//! Shade trees to light: spectral radiance for whoever wants the curve, three channels for the film:
+//! XYZ, or under `sensor.color = "bands"` the totals of three bands, which what is named after XYZ
+//! holds then.
 //!
 //! In: [`ShadeTrees`](crate::trace::ShadeTrees) and the spectra of the scene. Out: what the camera
 //! receives along each ray. [`received`] is the only place where a Doppler factor meets a spectrum.

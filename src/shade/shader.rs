@@ -5,9 +5,10 @@ use super::passage::Passages;
 use super::radiance::Radiance;
 use super::received::{Received, finite};
 use super::sky::SkyShade;
+use super::table::XyzTable;
 use super::thermal::BlackBodies;
 use crate::scene::Scene;
-use crate::shot::Spectra;
+use crate::shot::{SensorColor, Spectra};
 use crate::spectrum::{LogAxis, Sensor};
 use crate::trace::{Node, Root, Seen, ShadeTrees, Surface};
 use std::sync::Arc;
@@ -30,10 +31,17 @@ pub struct Shader {
 impl Shader {
     /// Prepares the curves of a scene.
     pub fn new(scene: &Scene, settings: &Settings<'_>) -> Self {
-        let axis = LogAxis::new(settings.window_nm, settings.accuracy.wavelengths as usize);
-        let sensor = Sensor::cie1931(axis);
+        let axis = LogAxis::new(
+            settings.sensor.window,
+            settings.accuracy.wavelengths as usize,
+        );
+        let sensor = match settings.sensor.color {
+            SensorColor::Cie1931 => Sensor::cie1931(axis),
+            SensorColor::Bands => Sensor::bands(axis),
+        };
         let (lamps, spectra) = distinct_emitters(scene);
         let tabulated = settings.accuracy.spectra == Spectra::Grid
+            && XyzTable::serves(axis)
             && scene.materials.len() * spectra.len() <= MOST_TABLES;
         let bake = Bake {
             sensor: &sensor,
@@ -65,12 +73,18 @@ impl Shader {
         }
     }
 
+    /// The axis of the sensor's wavelengths.
+    pub fn axis(&self) -> LogAxis {
+        self.sensor.axis()
+    }
+
     /// The sensor's wavelengths, nm.
     pub fn wavelengths_nm(&self) -> Vec<f64> {
         self.sensor.axis().wavelengths_nm()
     }
 
-    /// XYZ (cd/m²) that the camera receives along a ray.
+    /// What the camera receives along a ray, in the sensor's channels: XYZ (cd/m²), or the totals of
+    /// three bands (W·m⁻²·sr⁻¹).
     pub fn xyz(&self, trees: &ShadeTrees, root: Root, scratch: &mut ShadeScratch) -> [f64; 3] {
         match trees.nodes_of(root) {
             [] => [0.0; 3],
@@ -100,7 +114,7 @@ impl Shader {
         sum
     }
 
-    /// XYZ of spectral radiance at [`Shader::wavelengths_nm`].
+    /// The sensor's channels of spectral radiance at [`Shader::wavelengths_nm`].
     pub fn xyz_of(&self, radiance: &[f64]) -> [f64; 3] {
         self.sensor.xyz(radiance)
     }

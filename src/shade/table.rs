@@ -1,4 +1,4 @@
-//! XYZ of a curve as a function of ln D: where one shift serves everything that makes the curve,
+//! The sensor's channels of a curve as a function of ln D (XYZ, or band totals): where one shift serves everything that makes the curve,
 //! no wavelength need be looked at when a ray is shaded.
 
 use crate::spectrum::{LogAxis, Sensor, catmull_rom};
@@ -8,10 +8,20 @@ use crate::spectrum::{LogAxis, Sensor, catmull_rom};
 /// with 8, below the 1e-6 of f32 sums; the table takes twice as long to make.
 const FINENESS: f64 = 8.0;
 
-/// Most entries per unit of ln D, whatever the axis: a band of σ = 1 nm at 560 nm spans two.
+/// Most entries per unit of ln D over a window as wide as the visible, however fine the axis: a
+/// band of σ = 1 nm at 560 nm spans two. In proportion more over a narrower window.
 const FINEST: f64 = 1000.0;
+/// ln(longest/shortest) of the visible, about.
+const VISIBLE: f64 = 0.8;
+/// Fewest entries per unit of ln D, however coarse the axis of a wide window: what falls as e⁻ˣ,
+/// x = hc/(λkT), in Wien's part is within (x/400)³/60 of itself, 2e-7 at x = 10, 3e-5 at 50.
+const COARSEST: f64 = 400.0;
+/// With more entries per unit than this, in a window narrower than a tenth of the visible, tables
+/// over the shifts of a fast scene would take longer to make than sums over wavelengths.
+const MOST: f64 = 1e4;
 
-/// XYZ (cd/m²) of a curve C(Dλ), W·m⁻²·sr⁻¹·nm⁻¹, tabulated over ln D.
+/// XYZ (cd/m²), or band totals (W·m⁻²·sr⁻¹), of a curve C(Dλ), W·m⁻²·sr⁻¹·nm⁻¹, tabulated over
+/// ln D.
 pub(super) struct XyzTable {
     entries: Vec<[f64; 3]>,
     /// ln D of entry 1.
@@ -20,6 +30,11 @@ pub(super) struct XyzTable {
 }
 
 impl XyzTable {
+    /// Whether tables are worth it over an axis; else every curve is summed over wavelengths.
+    pub(super) fn serves(axis: LogAxis) -> bool {
+        per_unit(axis) <= MOST
+    }
+
     /// Tabulates `read(D, out)`, which writes the curve's shape at D·λ and returns its factor,
     /// for |ln D| ≤ `reach`, as far as `support_nm` (outside of which the curve is constant)
     /// makes a difference.
@@ -30,7 +45,7 @@ impl XyzTable {
         mut read: impl FnMut(f64, &mut [f32]) -> f64,
     ) -> Self {
         let axis = sensor.axis();
-        let per_unit = (FINENESS / axis.spacing()).min(FINEST);
+        let per_unit = per_unit(axis);
         let [low, high] = interesting(axis, support_nm);
         let low = low.max(-reach).min(reach);
         let high = high.min(reach).max(low);
@@ -50,7 +65,7 @@ impl XyzTable {
         }
     }
 
-    /// XYZ under the shift D = exp(`ln_doppler`); never negative.
+    /// XYZ, or band totals, under the shift D = exp(`ln_doppler`); never negative.
     #[inline(always)]
     pub(super) fn at(&self, ln_doppler: f64) -> [f64; 3] {
         let last = (self.entries.len() - 4) as f64;
@@ -65,6 +80,13 @@ impl XyzTable {
         }
         sum.map(|v| v.max(0.0))
     }
+}
+
+/// Entries per unit of ln D.
+fn per_unit(axis: LogAxis) -> f64 {
+    let width = axis.spacing() * axis.count() as f64;
+    let finest = FINEST * (VISIBLE / width).max(1.0);
+    (FINENESS / axis.spacing()).clamp(COARSEST, finest)
 }
 
 /// The range of ln D in which any wavelength of the axis reads inside the support.

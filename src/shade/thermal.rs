@@ -7,27 +7,35 @@ use super::table::XyzTable;
 use crate::scene::{self, Thermal};
 use crate::spectrum::{LogAxis, Sensor, catmull_rom, planck};
 
-/// XYZ of black bodies by temperature: ln X, ln Y, ln Z over ln T.
+/// XYZ, or band totals, of black bodies by temperature: the logarithms of the three over ln T.
 pub(super) struct BlackBodies {
     entries: Vec<[f64; 3]>,
+    coldest_k: f64,
+    hottest_k: f64,
 }
 
-/// Below this a body has no visible light that f64 can hold beside its own scale (ln B < −745 up
-/// to 830 nm); the coldest entry.
-const COLDEST_K: f64 = 25.0;
-/// From here on every XYZ is proportional to T (Rayleigh–Jeans) within 1e-6.
-const HOTTEST_K: f64 = 1e11;
-/// Entries per unit of ln T. ln XYZ has curvature x = hc/(λkT) there: the cubic's error is below
-/// 1e-6 at 1000 K, 2e-5 at 100 K.
+/// λT (nm·K) below which a body has no light that counts; at the window's longest wavelength it is
+/// the coldest entry, 25 K for the visible. There x = hc/(λkT) is 693, so B is less than 1e-301 of
+/// c₁λ⁻⁵, which is at most 1e65 in any window: what a film holds ends at 1e-45, and an exposure
+/// multiplies by 1e60 at most.
+const DARK_NM_K: f64 = 25.0 * 830.0;
+/// λT (nm·K) above which B is proportional to T (Rayleigh–Jeans) within x/2 = 2e-7; at the window's
+/// shortest wavelength it is the hottest entry, 1e11 K for the visible.
+const BRIGHT_NM_K: f64 = 1e11 * 360.0;
+/// Entries per unit of ln T. The logarithm's slope and curvature are about x, taken where most of
+/// the channel's light is: the cubic's error is below 1e-6 at x = 20 (1000 K in the visible), 2e-5
+/// at 200. Over the widest windows there are 8000 entries.
 const PER_UNIT: f64 = 100.0;
 
 impl BlackBodies {
     pub(super) fn new(sensor: &Sensor) -> Self {
         let wavelengths = sensor.axis().wavelengths_nm();
-        let count = ((HOTTEST_K / COLDEST_K).ln() * PER_UNIT).ceil() as usize + 4;
+        let [shortest, longest] = sensor.axis().window_nm();
+        let (coldest_k, hottest_k) = (DARK_NM_K / longest, BRIGHT_NM_K / shortest);
+        let count = ((hottest_k / coldest_k).ln() * PER_UNIT).ceil() as usize + 4;
         let entries = (0..count)
             .map(|i| {
-                let kelvin = COLDEST_K * ((i as f64 - 1.0) / PER_UNIT).exp();
+                let kelvin = coldest_k * ((i as f64 - 1.0) / PER_UNIT).exp();
                 let curve: Vec<f64> = wavelengths
                     .iter()
                     .map(|&nm| planck::radiance(nm, kelvin))
@@ -35,26 +43,36 @@ impl BlackBodies {
                 sensor.xyz(&curve).map(|v| v.max(f64::MIN_POSITIVE).ln())
             })
             .collect();
-        Self { entries }
+        Self {
+            entries,
+            coldest_k,
+            hottest_k,
+        }
     }
 
-    /// XYZ of a black body, cd/m².
+    /// XYZ (cd/m²), or band totals (W·m⁻²·sr⁻¹), of a black body.
     #[inline(always)]
     pub(super) fn xyz(&self, kelvin: f64) -> [f64; 3] {
-        if kelvin <= COLDEST_K {
+        if kelvin <= self.coldest_k {
             return [0.0; 3];
         }
-        let place = (kelvin.min(HOTTEST_K) / COLDEST_K).ln() * PER_UNIT;
+        let place = (kelvin.min(self.hottest_k) / self.coldest_k).ln() * PER_UNIT;
         let first = (place as usize).min(self.entries.len() - 4);
         let taps = catmull_rom(place - first as f64);
-        let beyond = (kelvin / HOTTEST_K).max(1.0);
+        let beyond = (kelvin / self.hottest_k).max(1.0);
+        let [_, below, above, _] = [0, 1, 2, 3].map(|i| self.entries[first + i]);
         [0, 1, 2].map(|c| {
             let ln: f64 = taps
                 .iter()
                 .zip(&self.entries[first..])
                 .map(|(tap, entry)| tap * entry[c])
                 .sum();
-            ln.exp() * beyond
+            // A warmer body is brighter at every wavelength. The cubic would swing up where a
+            // channel begins: its sum over a coarse axis may be nothing at one entry, and not at
+            // the next.
+            ln.clamp(below[c].min(above[c]), above[c].max(below[c]))
+                .exp()
+                * beyond
         })
     }
 }
@@ -65,7 +83,7 @@ pub(super) struct Glow {
     emissivity: Curve,
     /// 1, or what brings the peak to the strength asked for.
     scale: f64,
-    /// XYZ by ln D, for an emissivity that varies over wavelengths.
+    /// XYZ, or band totals, by ln D, for an emissivity that varies over wavelengths.
     table: Option<XyzTable>,
 }
 
@@ -113,7 +131,7 @@ impl Glow {
         super::curve::write_shape(value, out)
     }
 
-    /// XYZ under the Doppler factor `d`.
+    /// XYZ, or band totals, under the Doppler factor `d`.
     pub(super) fn xyz(
         &self,
         d: f64,

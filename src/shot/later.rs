@@ -13,10 +13,8 @@ enum When {
     Always,
     /// If it is this word.
     Word(&'static str),
-    /// If it is an ascending pair other than this one.
-    WindowOtherThan([f64; 2]),
 }
-use When::{Always, WindowOtherThan, Word};
+use When::{Always, Word};
 
 /// Pattern of the key path (`*` a name, `[]` an index), when it is refused, what to do.
 #[rustfmt::skip] // a line each
@@ -31,8 +29,6 @@ const LATER: &[(&str, When, &str)] = &[
     ("camera.node", Always, "place the camera with `position` and `look_at`"),
     ("camera.projection", Word("equirectangular"), "use \"perspective\""),
     ("camera.projection", Word("fisheye"), "use \"perspective\""),
-    ("sensor.window", WindowOtherThan([360.0, 830.0]), "leave it out or write [360, 830]"),
-    ("sensor.color", Word("bands"), "use \"cie1931\""),
     ("sensor.tone", Word("filmic"), "use \"clip\""),
     ("accuracy.spectra", Word("lines"), "use \"grid\" or \"spline\""),
     ("accuracy.spectra", Word("rgb"), "use \"grid\", and doppler = \"off\" for no shift"),
@@ -47,7 +43,6 @@ pub(super) fn refusal(pattern: &str, path: &str, value: &DeValue<'_>) -> Option<
     let message = match when {
         Always => format!("`{path}` is not supported yet"),
         Word(word) => format!("`{path}` = {word:?} is not supported yet"),
-        WindowOtherThan(window) => format!("`{path}` other than {window:?} is not supported yet"),
     };
     Some((message, (*instead).to_owned()))
 }
@@ -57,16 +52,6 @@ impl When {
         match self {
             Always => true,
             Word(word) => walk::text(value) == Some(word),
-            WindowOtherThan(only) => pair(value).is_some_and(|pair| {
-                0.0 < pair[0] && pair[0] < pair[1] && pair[1].is_finite() && pair != *only
-            }),
         }
-    }
-}
-
-fn pair(value: &DeValue<'_>) -> Option<[f64; 2]> {
-    match &value.as_array()?[..] {
-        [low, high] => Some([walk::number(low.get_ref())?, walk::number(high.get_ref())?]),
-        _ => None,
     }
 }

@@ -8,6 +8,12 @@ use serde::Deserialize;
 /// Most pixels on a side of an image.
 pub const LARGEST_SIDE: u32 = 32768;
 
+/// Shortest wavelength that a sensor may see, nm: gamma rays of 1 TeV and more.
+const SHORTEST_NM: f64 = 1e-9;
+
+/// Longest wavelength that a sensor may see, nm: radio of 300 Hz.
+const LONGEST_NM: f64 = 1e15;
+
 /// `[shot]`: title, length and clock of the sequence.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
@@ -161,12 +167,12 @@ pub struct SpliceEffects {
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Sensor {
-    /// Shortest and longest wavelength seen, nm, ascending and above 0. Default: [360, 830].
-    #[schemars(extend("exclusiveMinimum" = 0))]
+    /// Shortest and longest wavelength seen, nm, ascending: any band from gamma rays to radio, from 1e-9 to 1e15. Default: [360, 830].
+    #[schemars(inner(range(min = SHORTEST_NM, max = LONGEST_NM)))]
     pub window: [f64; 2],
     /// How wavelengths become color. Default: "cie1931".
     pub color: SensorColor,
-    /// "auto", metered on frame 1 and kept, or stops: 0 makes 100 cd/m² 1.0, +1 doubles; from -200 to 200. Default: "auto".
+    /// "auto", metered on frame 1 and kept, or stops: 0 makes 100 cd/m² 1.0 (of bands 100 W·m⁻²·sr⁻¹), +1 doubles; from -200 to 200. Default: "auto".
     #[schemars(extend("minimum" = -200, "maximum" = 200))]
     pub exposure: Exposure,
     /// What becomes of values above 1. Default: "clip".
@@ -188,15 +194,17 @@ impl Default for Sensor {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum SensorColor {
-    /// As the CIE's standard observer of 1931 (2°) sees them.
+    /// As the CIE's standard observer of 1931 (2°) sees them: what the window leaves of 360 to 830 nm.
     Cie1931,
+    /// False color: the radiance of the window's long, middle and short third (equal ratios of wavelength) is red, green and blue.
+    Bands,
 }
 
 /// How bright a radiance appears.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(untagged)]
 pub enum Exposure {
-    /// Stops: 0 makes 100 cd/m² 1.0, +1 doubles.
+    /// Stops: 0 makes 100 cd/m² 1.0 (of bands 100 W·m⁻²·sr⁻¹), +1 doubles.
     Stops(Track<f64>),
     /// Metered on frame 1 and kept.
     Auto(AutoExposure),
@@ -206,7 +214,7 @@ pub enum Exposure {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum AutoExposure {
-    /// The 95th percentile of the luminance of frame 1 becomes 0.8.
+    /// The 95th percentile of frame 1 becomes 0.8: of luminance, or of the mean of the bands.
     Auto,
 }
 
@@ -224,7 +232,7 @@ pub enum Tone {
 pub struct Accuracy {
     /// How curves are held. Default: "grid".
     pub spectra: Spectra,
-    /// Wavelengths over the sensor's window, from 8 to 4096. Default: 84.
+    /// Wavelengths over the sensor's window, in equal ratios, from 8 to 4096: what is finer than their spacing is lost. Default: 84.
     #[schemars(range(min = 8, max = 4096))]
     pub wavelengths: u32,
     /// Mirrored and refracted light that reaches the camera with no more than this share (the product of the reflectances on its way) is left out, from 0 to 1. Default: 1e-4.

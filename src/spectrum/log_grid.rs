@@ -13,6 +13,7 @@
 /// The sensor's wavelengths: `count` bins of equal width in ln λ; a wavelength is its bin's centre.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LogAxis {
+    window_nm: [f64; 2],
     /// First wavelength, nm.
     first_nm: f64,
     spacing: f64,
@@ -24,10 +25,16 @@ impl LogAxis {
     pub fn new(window_nm: [f64; 2], count: usize) -> Self {
         let spacing = (window_nm[1] / window_nm[0]).ln() / count as f64;
         Self {
+            window_nm,
             first_nm: window_nm[0] * (spacing / 2.0).exp(),
             spacing,
             count,
         }
+    }
+
+    /// What was asked for: where the first bin begins and the last ends, nm.
+    pub fn window_nm(&self) -> [f64; 2] {
+        self.window_nm
     }
 
     /// Number of wavelengths.
@@ -61,6 +68,10 @@ impl LogAxis {
 /// Rows between two neighbours of the axis.
 const PHASES: usize = 32;
 
+/// Most columns of a curve, 32 MB of it. A window so narrow that the curve is wider than as many
+/// of its steps cannot have it baked.
+const MOST_COLUMNS: f64 = 262_144.0;
+
 /// A curve tabulated for reading at an axis' wavelengths under any shift.
 #[derive(Debug, Clone)]
 pub struct Baked {
@@ -85,12 +96,14 @@ impl Baked {
     /// Tabulates `curve` (of the wavelength in nm, finite and ≥ 0) as far as shifts of |ln D| up to
     /// `reach` can bring it to the axis: what lies beyond does not count for its peak. Beyond `support_nm` the curve
     /// is taken to be constant; None says that it is constant everywhere.
+    ///
+    /// None if the table would be too large, where the axis is very fine.
     pub fn new(
         axis: LogAxis,
         reach: f64,
         support_nm: Option<[f64; 2]>,
         curve: impl Fn(f64) -> f64,
-    ) -> Self {
+    ) -> Option<Self> {
         let seen = [
             -1.0 - reach / axis.spacing,
             axis.count() as f64 + reach / axis.spacing,
@@ -98,6 +111,9 @@ impl Baked {
         let [low, high] = support_nm.map_or([0.0, 0.0], |support| {
             support.map(|nm| axis.place(nm).clamp(seen[0], seen[1]))
         });
+        if high - low > MOST_COLUMNS {
+            return None;
+        }
         // A window wholly beyond an end reads nothing but that end.
         let first = low.floor() as i64 - axis.count as i64 - 1;
         let columns = (high.ceil() as i64 + 2 - first) as usize + axis.count;
@@ -114,13 +130,13 @@ impl Baked {
             // Subnormal numbers would cost the kernel four-fold.
             rows[i % PHASES * columns + i / PHASES] = if shape < 1e-30 { 0.0 } else { shape };
         }
-        Self {
+        Some(Self {
             rows,
             columns,
             first,
             axis,
             peak,
-        }
+        })
     }
 
     /// Factor of [`Shifted`] values: the curve's largest value.
@@ -175,7 +191,7 @@ mod tests {
     fn worst(support: Option<[f64; 2]>, shifts: &[f64], curve: impl Fn(f64) -> f64) -> f64 {
         let axis = axis();
         let reach = shifts.iter().fold(0.0f64, |m, d| m.max(d.ln().abs()));
-        let baked = Baked::new(axis, reach, support, &curve);
+        let baked = Baked::new(axis, reach, support, &curve).unwrap();
         let mut out = vec![0.0; axis.count()];
         let mut worst = 0f64;
         for &d in shifts {
@@ -213,6 +229,15 @@ mod tests {
         let step = |nm: f64| ((nm.clamp(400.0, 700.0) - 400.0) / 300.0).min(1.0);
         let shifts = [1e-300, 1e-6, 0.3, 3.0, 1e6, 1e300];
         assert!(worst(Some([400.0, 700.0]), &shifts, step) < 2e-5);
+    }
+
+    #[test]
+    fn what_a_very_narrow_window_would_make_too_large_is_not_baked() {
+        let narrow = LogAxis::new([588.999, 589.001], 84);
+        let wide = Some([300.0, 830.0]);
+        assert!(Baked::new(narrow, 1.0, wide, |_| 1.0).is_none());
+        // As far as it can be shifted into view, it is small.
+        assert!(Baked::new(narrow, 1e-9, wide, |_| 1.0).is_some());
     }
 
     #[test]

@@ -7,6 +7,7 @@
 //!
 //! A leaf: nothing else of ours is imported.
 
+mod band;
 pub mod cardinal;
 pub mod cie;
 pub mod color_space;

@@ -1,17 +1,28 @@
-//! From spectral radiance at the sensor's wavelengths to XYZ.
+//! From spectral radiance at the sensor's wavelengths to three channels: XYZ as the CIE's observer
+//! has them, or the totals of three bands.
 
+use super::band;
 use super::cie::{EFFICACY, RANGE_NM, xyz_bar};
 use super::log_grid::{LogAxis, Shifted};
 
-/// Steps of the quadrature that makes the weights, nm.
+/// Longest steps of the quadrature that makes the weights of XYZ, nm.
 const STEP_NM: f64 = 0.1;
 
-/// X, Y and Z in cd/m² as weighted sums over an axis: L (W·m⁻²·sr⁻¹·nm⁻¹) at λ_j counts w_j.
+/// Least steps between two wavelengths: with fewer, narrow windows would have uneven weights.
+const LEAST_STEPS: f64 = 16.0;
+
+/// What larger radiance counts as: no weight brings it to infinity, from which a negative one would
+/// make no number.
+const LARGEST: f64 = 1e280;
+
+/// Three channels as weighted sums over an axis: L (W·m⁻²·sr⁻¹·nm⁻¹) at λ_j counts w_j. X, Y and Z
+/// in cd/m² ([`Sensor::cie1931`]), or the radiance of the long, middle and short third of the
+/// window in W·m⁻²·sr⁻¹ ([`Sensor::bands`]), which methods named after XYZ then give.
 #[derive(Debug, Clone)]
 pub struct Sensor {
     axis: LogAxis,
     weights: Vec<[f64; 3]>,
-    /// The same for kernels: X, Y and Z of eight wavelengths at a time, zero beyond the last.
+    /// The same for kernels: the channels of eight wavelengths at a time, zero beyond the last.
     lanes: Vec<[[f32; LANES]; 3]>,
 }
 
@@ -20,17 +31,22 @@ impl Sensor {
     /// colour-matching function over the cubic (Catmull–Rom in ln λ) that has value 1 there and 0
     /// at the others, so that sums are exact for spectra that are cubics between wavelengths. Some
     /// weights at the foot of a function are below 0 for that; no sum is, since no light's XYZ is.
+    /// What lies outside of 360 to 830 nm is black, and costs nothing.
     pub fn cie1931(axis: LogAxis) -> Self {
         let count = axis.count() as i64;
         let mut weights = vec![[0.0; 3]; axis.count()];
-        // Beyond the table the eye sees nothing: a window of radio waves takes no steps there.
         let ends = [
-            axis.wavelength_nm(-0.5).max(RANGE_NM[0]),
-            axis.wavelength_nm(count as f64 - 0.5).min(RANGE_NM[1]),
+            axis.wavelength_nm(-0.5),
+            axis.wavelength_nm(count as f64 - 0.5),
         ];
-        let steps = ((ends[1] - ends[0]) / STEP_NM).ceil().max(0.0) as usize;
-        let step = (ends[1] - ends[0]) / steps as f64;
-        for i in 0..steps {
+        let shortest = axis.spacing() * ends[0].max(RANGE_NM[0]);
+        let steps = ((ends[1] - ends[0]) / STEP_NM.min(shortest / LEAST_STEPS)).ceil();
+        let step = (ends[1] - ends[0]) / steps;
+        // Steps are counted from the window's beginning, but only those that touch the table's
+        // range are taken: a window may be 1e15 nm wide.
+        let [first, last] = RANGE_NM.map(|nm| (nm - ends[0]) / step);
+        let last = (last.ceil() + 1.0).min(steps);
+        for i in (first.floor() - 1.0).max(0.0) as u64..last.max(0.0) as u64 {
             let nm = ends[0] + (i as f64 + 0.5) * step;
             let place = axis.place(nm);
             let bar = xyz_bar(nm);
@@ -41,6 +57,25 @@ impl Sensor {
                 }
             }
         }
+        Self::new(axis, weights)
+    }
+
+    /// The radiance of each third of the window, W·m⁻²·sr⁻¹: the longest wavelengths first. Thirds
+    /// are equal in ln λ, so that a Doppler shift by the cube root of the window's ratio moves each
+    /// onto the next; together they are the whole. Sums are exact for
+    /// parabolas in ln λ, the error of others falls with the fourth power of the spacing.
+    /// The axis has at least three wavelengths.
+    pub fn bands(axis: LogAxis) -> Self {
+        let third = axis.count() as f64 / 3.0;
+        let thirds = [2.0, 1.0, 0.0]
+            .map(|i| band::weights(axis, [third * i - 0.5, third * (i + 1.0) - 0.5]));
+        let weights = (0..axis.count())
+            .map(|j| [0, 1, 2].map(|channel: usize| thirds[channel][j]))
+            .collect();
+        Self::new(axis, weights)
+    }
+
+    fn new(axis: LogAxis, weights: Vec<[f64; 3]>) -> Self {
         let lanes = weights
             .chunks(LANES)
             .map(|chunk| {
@@ -60,10 +95,11 @@ impl Sensor {
         self.axis
     }
 
-    /// XYZ of spectral radiance at the axis' wavelengths.
+    /// XYZ, or band totals, of spectral radiance at the axis' wavelengths.
     pub fn xyz(&self, radiance: &[f64]) -> [f64; 3] {
         let mut sum = [0.0; 3];
         for (weight, value) in self.weights.iter().zip(radiance) {
+            let value = value.min(LARGEST);
             for (sum, weight) in sum.iter_mut().zip(weight) {
                 *sum += weight * value;
             }
@@ -71,7 +107,7 @@ impl Sensor {
         sum.map(|v| v.max(0.0))
     }
 
-    /// XYZ of a shape: values of order 1, as many as the axis has.
+    /// XYZ, or band totals, of a shape: values of order 1, as many as the axis has.
     pub fn xyz_of_shape(&self, shape: &[f32]) -> [f64; 3] {
         let mut sums = Sums::default();
         let (chunks, rest) = shape.as_chunks::<LANES>();
@@ -84,7 +120,7 @@ impl Sensor {
         sums.total()
     }
 
-    /// XYZ of the product of two shapes, each under its own shift: the kernel of every ray whose
+    /// XYZ, or band totals, of the product of two shapes, each under its own shift: the kernel of every ray whose
     /// lamp does not move with what it lights.
     #[inline]
     pub fn xyz_of_product(&self, one: &Shifted<'_>, other: &Shifted<'_>) -> [f64; 3] {
@@ -133,7 +169,7 @@ impl Sensor {
     }
 }
 
-/// Sums of X, Y and Z, each in lanes of fixed order.
+/// Sums of the three channels, each in lanes of fixed order.
 #[derive(Default)]
 struct Sums([[f32; LANES]; 3]);
 
@@ -179,7 +215,7 @@ pub fn catmull_rom(t: f64) -> [f64; 4] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::spectrum::cie::xyz_of;
+    use crate::spectrum::cie::{xyz_of, xyz_with_substeps};
 
     #[test]
     fn weights_are_not_negative_and_sum_to_the_equal_energy_white() {
@@ -242,5 +278,100 @@ mod tests {
             before = error;
         }
         assert!(before < 1e-4);
+    }
+
+    /// What makes 1 of a spectral radiance that is 1 everywhere.
+    fn white(sensor: &Sensor) -> [f64; 3] {
+        sensor.xyz(&vec![1.0; sensor.axis().count()])
+    }
+
+    #[test]
+    fn the_eye_sees_of_a_window_what_lies_in_its_range() {
+        let part = |window: [f64; 2]| {
+            let seen = move |nm: f64| f64::from(u8::from((window[0]..=window[1]).contains(&nm)));
+            (
+                xyz_with_substeps(seen, 1000),
+                white(&Sensor::cie1931(LogAxis::new(window, 84))),
+            )
+        };
+        for window in [
+            [360.0, 830.0],
+            [10.0, 1e5],
+            [1e-9, 1e15],
+            [200.0, 500.0],
+            [555.0, 2500.0],
+            [587.0, 592.0],
+            [588.5, 589.5],
+        ] {
+            let (exact, found) = part(window);
+            for (exact, found) in exact.into_iter().zip(found) {
+                let size = exact.max(1e-3);
+                assert!(
+                    (found - exact).abs() < 1e-2 * size,
+                    "{window:?}: {found} {exact}"
+                );
+            }
+        }
+        for window in [[1e-9, 1e-3], [100.0, 359.9], [831.0, 1e4], [1e7, 1e15]] {
+            assert_eq!(part(window).1, [0.0; 3], "{window:?}");
+        }
+    }
+
+    /// A window far wider than the table costs no more than the table, and its weights are the
+    /// same: these are the wavelengths 384 to 468 of the wider axis.
+    #[test]
+    fn weights_do_not_depend_on_what_the_window_holds_beyond_the_eyes_range() {
+        let ratio: f64 = 830.0 / 360.0;
+        let narrow = Sensor::cie1931(LogAxis::new([360.0, 830.0], 84));
+        let wide = [360.0 / ratio.powi(4), 830.0 * ratio.powi(4)];
+        let wide = Sensor::cie1931(LogAxis::new(wide, 9 * 84));
+        // But for its ends, which stand for what is missing there.
+        let pairs = narrow.weights.iter().zip(&wide.weights[4 * 84..]);
+        for (one, other) in pairs.skip(2).take(80) {
+            for (one, other) in one.iter().zip(other) {
+                assert!((one - other).abs() < 1e-4 * EFFICACY, "{one} {other}");
+            }
+        }
+    }
+
+    #[test]
+    fn bands_are_thirds_of_the_window_from_long_to_short() {
+        for (window, count) in [([4e3, 32e3], 84), ([4e3, 32e3], 100), ([4e3, 32e3], 8)] {
+            let found = white(&Sensor::bands(LogAxis::new(window, count)));
+            for (found, exact) in found.into_iter().zip([16e3, 8e3, 4e3]) {
+                // What the lobes of the cubics lose on one side of an end they gain on the other.
+                assert!((found / exact - 1.0).abs() < 1e-13, "{found} {exact}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_doppler_shift_by_a_third_of_the_window_moves_each_band_onto_the_next() {
+        // 30 wavelengths a third, and a line of σ = 3 of them.
+        let sensor = Sensor::bands(LogAxis::new([1.0, 8.0], 90));
+        let line = |center: f64| {
+            let radiance: Vec<f64> = (0..90)
+                .map(|j| (-0.5 * ((f64::from(j) - center) / 3.0).powi(2)).exp())
+                .collect();
+            sensor.xyz(&radiance)
+        };
+        let [red, green] = [line(70.0), line(40.0)];
+        assert!((red[0] / green[1] / 2.0 - 1.0).abs() < 1e-8);
+        assert!((red[1] / green[2] / 2.0 - 1.0).abs() < 1e-8);
+    }
+
+    #[test]
+    fn the_three_bands_add_up_to_the_window() {
+        for count in [8, 84, 85, 86, 512] {
+            let axis = LogAxis::new([0.01, 10.0], count);
+            let sensor = Sensor::bands(axis);
+            let whole = band::weights(axis, [-0.5, count as f64 - 0.5]);
+            for (bands, whole) in sensor.weights.iter().zip(whole) {
+                let sum: f64 = bands.iter().sum();
+                assert!((sum - whole).abs() < 1e-14 * (whole + 10.0), "{count}");
+                // Lobes of the cubics beyond a band's end, at most 0.08 of a wavelength's width.
+                assert!(count < 84 || bands.iter().all(|w| *w > -0.08 * whole));
+            }
+        }
     }
 }

@@ -22,6 +22,10 @@ use std::path::Path;
 pub use bodies::MAX_INSTANCES;
 pub use spectra::ILLUMINANTS;
 
+/// Least ratio of a window's ends: an axis of 4096 wavelengths in it is still far from the rounding
+/// of their logarithms.
+const NARROWEST: f64 = 1.000_001;
+
 /// Most frames of which relations between moving values are checked one by one.
 const MAX_FRAMES: u32 = 10_000;
 
@@ -161,6 +165,13 @@ impl<'a> Checks<'a> {
                 "sensor.window",
                 message,
                 "write the shorter wavelength first",
+            );
+        } else if to < from * NARROWEST {
+            let message = format!("the window from {from} to {to} nm is too narrow");
+            self.say(
+                "sensor.window",
+                message,
+                "let it end at least a millionth further than it begins",
             );
         }
         for (key, splice) in self.each("splice", &self.shot.splice) {

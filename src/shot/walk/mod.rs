@@ -24,7 +24,7 @@ use toml::de::{DeTable, DeValue};
 use value::{as_number, is_array_of_tables, kind_of, shown};
 
 pub(super) use spans::spans;
-pub(super) use value::{as_number as number, as_text as text};
+pub(super) use value::as_text as text;
 
 /// What marks the holder of a key that is not there.
 pub(super) const MISSING: &str = "missing here";

@@ -34,7 +34,7 @@ impl Bounds {
         let words = [
             self.minimum
                 .filter(|bound| value < *bound)
-                .map(|bound| format!("at least {bound}")),
+                .map(|bound| format!("at least {}", written(bound))),
             self.above
                 .filter(|bound| value <= *bound)
                 .map(|bound| format!("above {bound}")),
@@ -289,9 +289,9 @@ pub(super) fn list_of(items: impl Iterator<Item = String>) -> String {
     }
 }
 
-/// A bound as its author would write it: large powers of ten are not spelt out.
+/// A bound as its author would write it: large and small powers of ten are not spelt out.
 fn written(bound: f64) -> String {
-    if bound.abs() >= 1e7 {
+    if bound.abs() >= 1e7 || (bound != 0.0 && bound.abs() < 1e-4) {
         format!("{bound:e}")
     } else {
         bound.to_string()
