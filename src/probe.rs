@@ -15,7 +15,11 @@ pub struct Probe {
     pub frame: u32,
     /// The pixel, from the upper left one, (0, 0).
     pub pixel: [u32; 2],
-    /// The first surface; None where the background is seen.
+    /// Where the pixel looks: a unit vector in the camera's rest frame. None outside of a fisheye's
+    /// circle, where nothing is seen and all light is 0. Not part of the JSON.
+    #[serde(skip)]
+    pub direction: Option<[f64; 3]>,
+    /// The first surface; None where the background is seen, or nothing.
     pub hit: Option<ProbeHit>,
     /// The sensor's wavelengths, nm, in the camera's rest frame.
     pub wavelengths: Vec<f64>,
@@ -66,27 +70,36 @@ pub fn probe(
 ) -> Probe {
     let point = [0, 1].map(|i| (f64::from(pixel[i]) + 0.5) / f64::from(shot.image.size[i]));
     let direction = scene.camera.looks_along(point);
-    let mut trees = ShadeTrees::default();
-    view.tracer()
-        .trace(&[direction], &mut Scratch::default(), &mut trees);
-    let root = trees.roots[0];
-    let radiance = view.shader().radiance(&trees, root);
+    let (hit, radiance) = match direction {
+        Some(direction) => seen(view, scene, direction),
+        None => (None, vec![0.0; view.shader().wavelengths_nm().len()]),
+    };
     let xyz = view.shader().xyz_of(&radiance);
     let gain = exposure.exp2() / 100.0;
     let rgb = RGB_FROM_XYZ.map(|row| row.iter().zip(xyz).map(|(m, v)| m * v).sum::<f64>() * gain);
-    let hit = match root {
-        Root::Sky(_) => None,
-        Root::Surface(index) => Some(hit(view, scene, &trees.nodes[index as usize], direction)),
-    };
     Probe {
         frame,
         pixel,
+        direction: direction.map(|direction| direction.to_array()),
         hit,
         wavelengths: view.shader().wavelengths_nm(),
         radiance,
         xyz,
         rgb,
     }
+}
+
+/// The first surface in a direction, and the radiance from there.
+fn seen(view: &View<'_>, scene: &Scene, direction: DVec3) -> (Option<ProbeHit>, Vec<f64>) {
+    let mut trees = ShadeTrees::default();
+    view.tracer()
+        .trace(&[direction], &mut Scratch::default(), &mut trees);
+    let root = trees.roots[0];
+    let hit = match root {
+        Root::Sky(_) => None,
+        Root::Surface(index) => Some(hit(view, scene, &trees.nodes[index as usize], direction)),
+    };
+    (hit, view.shader().radiance(&trees, root))
 }
 
 fn hit(view: &View<'_>, scene: &Scene, node: &Node, direction: DVec3) -> ProbeHit {

@@ -36,8 +36,6 @@ const LATER: &[(&str, When, &str)] = &[
     ("background.image", Always, "give the background a `spectrum`"),
     ("camera.model", Always, "place the camera with `position` and `look_at`"),
     ("camera.node", Always, "place the camera with `position` and `look_at`"),
-    ("camera.projection", Word("equirectangular"), "use \"perspective\""),
-    ("camera.projection", Word("fisheye"), "use \"perspective\""),
     ("effects.bounces", NumberOtherThan(4.0), "leave it out: nothing is mirrored or refracted"),
     ("splice[].effects.bounces", Always, "leave it out: nothing is mirrored or refracted"),
     ("sensor.window", WindowOtherThan([360.0, 830.0]), "leave it out or write [360, 830]"),
