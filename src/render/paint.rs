@@ -134,9 +134,11 @@ impl Painter {
         self.directions.clear();
         self.ends.clear();
         for x in pixels {
-            let indices = 0..samples.count();
-            self.directions
-                .extend(indices.filter_map(|index| row.looks_along(view, samples, x, index)));
+            for index in 0..samples.count() {
+                if let Some(direction) = row.looks_along(view, samples, x, index) {
+                    self.directions.push(direction);
+                }
+            }
             self.ends.push(self.directions.len());
         }
         self.trees.clear();

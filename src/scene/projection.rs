@@ -58,29 +58,32 @@ impl Projection {
     pub(super) fn towards(&self, point: [f64; 2]) -> Option<DVec3> {
         // From the centre, 1 at the right and upper edge.
         let (right, up) = (2.0 * point[0] - 1.0, 1.0 - 2.0 * point[1]);
-        match *self {
+        match self {
             Self::Perspective { tan_half } => {
                 Some(DVec3::new(right * tan_half[0], up * tan_half[1], -1.0))
             }
-            Self::Equirectangular { half } => {
-                // Beyond a pole the cosine is negative: the row goes on upon the other side.
-                let (sin_yaw, cos_yaw) = (right * half[0]).sin_cos();
-                let (sin_pitch, cos_pitch) = (up * half[1]).sin_cos();
-                Some(DVec3::new(
-                    cos_pitch * sin_yaw,
-                    sin_pitch,
-                    -cos_pitch * cos_yaw,
-                ))
-            }
-            Self::Fisheye { edge, half } => {
-                let (x, y) = (right * edge[0], up * edge[1]);
-                let off_axis = x.hypot(y);
-                let (sin, cos) = off_axis.sin_cos();
-                let per_angle = if off_axis > 0.0 { sin / off_axis } else { 1.0 };
-                (off_axis <= half).then(|| DVec3::new(x * per_angle, y * per_angle, -cos))
-            }
+            Self::Equirectangular { half } => Some(by_yaw_and_pitch(right * half[0], up * half[1])),
+            Self::Fisheye { edge, half } => off_axis(right * edge[0], up * edge[1], *half),
         }
     }
+}
+
+/// Beyond a pole the cosine is negative: the row goes on upon the other side. Kept out of the loop
+/// over rays, which would else be slower for perspectives too.
+#[inline(never)]
+fn by_yaw_and_pitch(yaw: f64, pitch: f64) -> DVec3 {
+    let (sin_yaw, cos_yaw) = yaw.sin_cos();
+    let (sin_pitch, cos_pitch) = pitch.sin_cos();
+    DVec3::new(cos_pitch * sin_yaw, sin_pitch, -cos_pitch * cos_yaw)
+}
+
+/// The direction at the angle |(x, y)| from the axis, up to `half`; kept apart as the other.
+#[inline(never)]
+fn off_axis(x: f64, y: f64, half: f64) -> Option<DVec3> {
+    let angle = x.hypot(y);
+    let (sin, cos) = angle.sin_cos();
+    let per_angle = if angle > 0.0 { sin / angle } else { 1.0 };
+    (angle <= half).then(|| DVec3::new(x * per_angle, y * per_angle, -cos))
 }
 
 /// From the angles that are given, across an image of `size` pixels.
