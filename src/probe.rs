@@ -3,6 +3,7 @@
 use crate::relativity::Event;
 use crate::render::{LabPath, View, development};
 use crate::scene::Scene;
+use crate::shade::Radiance;
 use crate::shot::Shot;
 use crate::spectrum::Sensor;
 use crate::trace::{Branch, Node, Scratch, Seen, ShadeTrees, Surface, Term};
@@ -16,7 +17,11 @@ pub struct Probe {
     pub frame: u32,
     /// The pixel, from the upper left one, (0, 0).
     pub pixel: [u32; 2],
-    /// The first surface; None where the background is seen.
+    /// Where the pixel looks: a unit vector in the camera's rest frame. None outside of a fisheye's
+    /// circle, where nothing is seen and all light is 0. Not part of the JSON.
+    #[serde(skip)]
+    pub direction: Option<[f64; 3]>,
+    /// The first surface; None where the background is seen, or nothing.
     pub hit: Option<ProbeHit>,
     /// The sensor's wavelengths, nm, in the camera's rest frame.
     pub wavelengths: Vec<f64>,
@@ -93,12 +98,11 @@ pub fn probe(
 ) -> Probe {
     let point = [0, 1].map(|i| (f64::from(pixel[i]) + 0.5) / f64::from(shot.image.size[i]));
     let direction = scene.camera.looks_along(point);
-    let mut trees = ShadeTrees::default();
-    view.tracer()
-        .trace(&[direction], &mut Scratch::default(), &mut trees);
-    let root = trees.roots[0];
-    let chain = chain(view, scene, trees.nodes_of(root), direction);
-    let light = view.shader().radiance(&trees, root);
+    let count = view.shader().wavelengths_nm().len();
+    let (chain, cut, light) = match direction {
+        Some(direction) => seen(view, scene, direction),
+        None => (Vec::new(), 0.0, Radiance::new(count)),
+    };
     let radiance = light.total();
     let channels = view.shader().xyz_of(&radiance);
     let xyz = Sensor::cie1931(view.shader().axis()).xyz(&radiance);
@@ -110,9 +114,10 @@ pub fn probe(
     Probe {
         frame,
         pixel,
+        direction: direction.map(|direction| direction.to_array()),
         hit: chain.first().and_then(|node| node.hit.clone()),
         chain,
-        cut: root.cut,
+        cut,
         wavelengths: view.shader().wavelengths_nm(),
         radiance,
         surface: light.surface,
@@ -120,6 +125,16 @@ pub fn probe(
         xyz,
         rgb,
     }
+}
+
+/// The shade tree in a direction, what was cut off from it, and the radiance from there.
+fn seen(view: &View<'_>, scene: &Scene, direction: DVec3) -> (Vec<ProbeNode>, f64, Radiance) {
+    let mut trees = ShadeTrees::default();
+    view.tracer()
+        .trace(&[direction], &mut Scratch::default(), &mut trees);
+    let root = trees.roots[0];
+    let chain = chain(view, scene, trees.nodes_of(root), direction);
+    (chain, root.cut, view.shader().radiance(&trees, root))
 }
 
 fn chain(view: &View<'_>, scene: &Scene, nodes: &[Node], direction: DVec3) -> Vec<ProbeNode> {

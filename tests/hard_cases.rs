@@ -32,6 +32,8 @@ mod mirrors;
 mod moving_lamps;
 #[path = "hard_cases/numbers.rs"]
 mod numbers;
+#[path = "hard_cases/panoramas.rs"]
+mod panoramas;
 #[path = "hard_cases/pictures.rs"]
 mod pictures;
 #[path = "hard_cases/pipeline.rs"]
@@ -52,6 +54,7 @@ fn sections() -> Vec<(&'static str, &'static [card::Case])> {
         ("B. Doppler factor and aberration", doppler::CASES),
         ("C. Radiometry and spectra", light::CASES),
         ("C. Windows of the sensor", windows::CASES),
+        ("B, D. The whole sky at once", panoramas::CASES),
         ("D. Geometry", geometry::CASES),
         ("D. Visibility", visibility::CASES),
         ("E. Moving lamps", moving_lamps::CASES),

@@ -96,7 +96,7 @@ fn answer(prepared: &Prepared, frame: u32, pixel: [u32; 2]) -> (Probe, [f64; 3])
         .stops(frame, shot.shot.frames);
     let point = [0, 1].map(|i| (f64::from(pixel[i]) + 0.5) / f64::from(shot.image.size[i]));
     let mut trees = ShadeTrees::default();
-    let direction = scene.camera.looks_along(point);
+    let direction = scene.camera.looks_along(point).unwrap();
     view.tracer()
         .trace(&[direction], &mut Scratch::default(), &mut trees);
     let imaged = view

@@ -74,7 +74,7 @@ impl Folder {
         let stage = Stage::build(&scene.geometry, None);
         let view = View::new(shot, 1, &shot.effects, &scene, &stage).unwrap();
         let mut trees = ShadeTrees::default();
-        let direction = scene.camera.looks_along([0.5, 0.5]);
+        let direction = scene.camera.looks_along([0.5, 0.5]).unwrap();
         view.tracer()
             .trace(&[direction], &mut Scratch::default(), &mut trees);
         let shader = view.shader();

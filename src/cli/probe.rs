@@ -50,6 +50,9 @@ fn described(probe: &Probe, color: SensorColor) -> String {
     let [x, y] = probe.pixel;
     let mut lines = vec![format!("frame {}, pixel {x} {y}", probe.frame)];
     match &probe.hit {
+        None if probe.direction.is_none() => {
+            lines.push("sees nothing: it lies outside of the fisheye's circle".to_owned());
+        }
         None => lines.push("sees the background".to_owned()),
         Some(hit) => {
             let [ex, ey, ez] = hit.event.x;

@@ -59,6 +59,9 @@ fn metadata(shot: &Shot, frame: u32, scene: &Scene, exposure_stops: f64, samples
         software: Some(film::SOFTWARE.to_owned()),
         comments: shot.shot.title.clone(),
         frames_per_second: Some(shot.shot.fps),
+        // Camera space is the same for every projection. What describes a perspective alone is not
+        // written: no `worldToNDC`, and the screen window that EXR demands stays at its default,
+        // which by the standard is that of pictures without such a description.
         camera_from_world: scene
             .camera
             .camera_from_lab(worldline)

@@ -78,10 +78,27 @@ pub(super) struct Row<'a> {
     pub(super) options: &'a Options,
 }
 
+impl Row<'_> {
+    /// The direction of sample `index` of pixel `x`, where the camera looks anywhere in it.
+    #[inline(always)]
+    fn looks_along(&self, view: &View<'_>, samples: &Samples, x: u32, index: u32) -> Option<DVec3> {
+        let [width, height] = [self.options.width, self.options.height].map(f64::from);
+        let [dx, dy] = samples.position(x, self.number, index);
+        let point = [
+            (f64::from(x) + dx) / width,
+            (f64::from(self.number) + dy) / height,
+        ];
+        view.scene.camera.looks_along(point)
+    }
+}
+
 /// One thread's memory.
 #[derive(Default)]
 pub(super) struct Painter {
+    /// Of the samples that see something, pixel by pixel.
     directions: Vec<DVec3>,
+    /// Where the directions of each pixel end.
+    ends: Vec<usize>,
     scratch: Scratch,
     trees: ShadeTrees,
     shading: ShadeScratch,
@@ -106,12 +123,15 @@ impl Painter {
         for first in (0..width).step_by(step as usize) {
             let pixels = first..(first + step).min(width);
             self.trace(view, samples, row, pixels.clone());
+            let mut start = 0;
             for (index, x) in pixels.enumerate() {
-                let rays = index * samples.count() as usize..(index + 1) * samples.count() as usize;
+                let rays = start..self.ends[index];
+                start = rays.end;
                 let at = row.in_band * width as usize + x as usize;
-                part.xyz[at] = self.mean_xyz(view, rays.clone());
-                if !part.layers.is_empty() {
-                    let central = rays.start + central_sample(samples, x, row.number);
+                part.xyz[at] = self.mean_xyz(view, rays.clone(), samples.count());
+                if !part.layers.is_empty()
+                    && let Some(central) = central_ray(view, samples, row, x, rays)
+                {
                     self.write_layers(view, central, at, part);
                 }
             }
@@ -119,25 +139,24 @@ impl Painter {
     }
 
     fn trace(&mut self, view: &View<'_>, samples: &Samples, row: &Row<'_>, pixels: Range<u32>) {
-        let [width, height] = [row.options.width, row.options.height].map(f64::from);
         self.directions.clear();
+        self.ends.clear();
         for x in pixels {
             for index in 0..samples.count() {
-                let [dx, dy] = samples.position(x, row.number, index);
-                let point = [
-                    (f64::from(x) + dx) / width,
-                    (f64::from(row.number) + dy) / height,
-                ];
-                self.directions.push(view.scene.camera.looks_along(point));
+                if let Some(direction) = row.looks_along(view, samples, x, index) {
+                    self.directions.push(direction);
+                }
             }
+            self.ends.push(self.directions.len());
         }
         self.trees.clear();
         view.tracer()
             .trace(&self.directions, &mut self.scratch, &mut self.trees);
     }
 
-    fn mean_xyz(&mut self, view: &View<'_>, rays: Range<usize>) -> [f32; 3] {
-        let count = rays.len() as f64;
+    /// The mean over all samples of a pixel: those of them that have no ray are black.
+    fn mean_xyz(&mut self, view: &View<'_>, rays: Range<usize>, samples: u32) -> [f32; 3] {
+        let count = f64::from(samples);
         let mut sum = [0.0; 3];
         for ray in rays {
             let xyz = view
@@ -176,13 +195,30 @@ impl Painter {
     }
 }
 
+/// Which of a pixel's `rays` belongs to the sample nearest to its centre, if that one has a ray.
+fn central_ray(
+    view: &View<'_>,
+    samples: &Samples,
+    row: &Row<'_>,
+    x: u32,
+    rays: Range<usize>,
+) -> Option<usize> {
+    let central = central_sample(samples, x, row.number);
+    if rays.len() == samples.count() as usize {
+        return Some(rays.start + central as usize);
+    }
+    // Few pixels are at the edge of what is seen: the camera is asked again which samples lack.
+    let has_ray = |&index: &u32| row.looks_along(view, samples, x, index).is_some();
+    has_ray(&central).then(|| rays.start + (0..central).filter(has_ray).count())
+}
+
 /// The sample nearest to the pixel's centre, whose surface the layers describe.
-fn central_sample(samples: &Samples, x: u32, y: u32) -> usize {
+fn central_sample(samples: &Samples, x: u32, y: u32) -> u32 {
     let off = |index: u32| {
         let [dx, dy] = samples.position(x, y, index);
         (dx - 0.5).powi(2) + (dy - 0.5).powi(2)
     };
     (0..samples.count())
         .min_by(|&a, &b| off(a).total_cmp(&off(b)))
-        .unwrap_or(0) as usize
+        .unwrap_or(0)
 }

@@ -1,13 +1,11 @@
 //! The camera: an event and axes in its worldline's rest frame.
 
+use super::projection::Projection;
 use crate::relativity::{Event, Worldline};
 use crate::shot::{Shot, Track};
 use glam::{DMat3, DMat4, DVec3};
 
-/// Horizontal angle of view where the shot gives none, degrees.
-const HFOV_DEG: f64 = 90.0;
-
-/// A perspective camera.
+/// A camera at its exposure.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Camera {
     /// Index into the scene's worldlines.
@@ -16,8 +14,8 @@ pub struct Camera {
     pub event: Event,
     /// Right, up and back, as columns; orthonormal.
     pub axes: DMat3,
-    /// Tangents of half the horizontal and vertical angle of view.
-    pub tan_half: [f64; 2],
+    /// How image points become directions about those axes.
+    pub projection: Projection,
 }
 
 impl Camera {
@@ -33,13 +31,13 @@ impl Camera {
         })
     }
 
-    /// The unit direction in which an image point is seen, in the camera's rest frame. `point` is
-    /// in fractions of the image, from 0 at the left and top to 1.
+    /// The unit direction in which an image point is seen, in the camera's rest frame; None where
+    /// the projection looks nowhere. `point` is in fractions of the image, from 0 at the left and
+    /// top to 1.
     #[inline(always)]
-    pub fn looks_along(&self, point: [f64; 2]) -> DVec3 {
-        let right = (2.0 * point[0] - 1.0) * self.tan_half[0];
-        let up = (1.0 - 2.0 * point[1]) * self.tan_half[1];
-        (self.axes * DVec3::new(right, up, -1.0)).normalize()
+    pub fn looks_along(&self, point: [f64; 2]) -> Option<DVec3> {
+        let towards = self.projection.towards(point)?;
+        Some((self.axes * towards).normalize())
     }
 }
 
@@ -80,7 +78,7 @@ impl Camera {
             worldline: index,
             event: worldline.event_at_lab_time(position, lab_time),
             axes: axes(yaw, pitch, roll),
-            tan_half: tan_half(shot, frame),
+            projection: Projection::new(shot, frame),
         })
     }
 }
@@ -100,22 +98,6 @@ fn towards(direction: DVec3) -> Option<(f64, f64)> {
 /// who looks through it).
 fn axes(yaw: f64, pitch: f64, roll: f64) -> DMat3 {
     DMat3::from_rotation_y(-yaw) * DMat3::from_rotation_x(pitch) * DMat3::from_rotation_z(-roll)
-}
-
-fn tan_half(shot: &Shot, frame: u32) -> [f64; 2] {
-    let [width, height] = shot.image.size.map(f64::from);
-    let tan = |degrees: &Track<f64>| {
-        (degrees.at(frame, shot.shot.frames) / 2.0)
-            .to_radians()
-            .tan()
-    };
-    match (&shot.camera.hfov, &shot.camera.vfov) {
-        (None, Some(vfov)) => [tan(vfov) * width / height, tan(vfov)],
-        (hfov, _) => {
-            let horizontal = tan(hfov.as_ref().unwrap_or(&Track::Constant(HFOV_DEG)));
-            [horizontal, horizontal * height / width]
-        }
-    }
 }
 
 #[cfg(test)]
@@ -156,6 +138,7 @@ mod tests {
             camera(&format!("[camera]\n{text}"))
                 .0
                 .looks_along([0.5, 0.5])
+                .unwrap()
         };
         assert!((ahead("yaw = 90") - DVec3::X).length() < 1e-15);
         assert!((ahead("yaw = 60\npan = 30") - DVec3::X).length() < 1e-15);
@@ -163,13 +146,47 @@ mod tests {
         // Rolled clockwise by 90 degrees, the top of the image is the camera's former right.
         let top = camera("[camera]\nroll = 90\nvfov = 90")
             .0
-            .looks_along([0.5, 0.0]);
+            .looks_along([0.5, 0.0])
+            .unwrap();
         assert!(top.x > 0.7 && top.y.abs() < 1e-15, "{top}");
     }
 
     #[test]
     fn a_90_degree_view_ends_45_degrees_off_its_axis() {
-        let corner = camera("[camera]\nhfov = 90").0.looks_along([1.0, 0.5]);
+        let corner = camera("[camera]\nhfov = 90")
+            .0
+            .looks_along([1.0, 0.5])
+            .unwrap();
         assert!((corner.x + corner.z).abs() < 1e-15 && corner.y == 0.0);
+    }
+
+    #[test]
+    fn every_projection_is_about_where_the_camera_looks() {
+        for projection in ["perspective", "equirectangular", "fisheye"] {
+            let projected = |text: &str, point| {
+                camera(&format!("[camera]\nprojection = \"{projection}\"\n{text}"))
+                    .0
+                    .looks_along(point)
+                    .unwrap()
+            };
+            let near = |found: DVec3, expected: DVec3| {
+                assert!((found - expected).length() < 1e-15, "{projection} {found}");
+            };
+            let turned =
+                "position = [1, 2, 3]\nlook_at = [1, 2, 9]\npan = 60\ntilt = 30\nroll = 20";
+            let [yaw, pitch] = [240.0_f64, 30.0].map(f64::to_radians);
+            let ahead = DVec3::new(
+                pitch.cos() * yaw.sin(),
+                pitch.sin(),
+                -pitch.cos() * yaw.cos(),
+            );
+            near(projected(turned, [0.5, 0.5]), ahead);
+            // Rolled clockwise, the upper half of the image is the camera's former right.
+            let upper = projected("yaw = 90\nroll = 90", [0.5, 0.3]);
+            assert!(
+                upper.z > 0.1 && upper.y.abs() < 1e-15,
+                "{projection} {upper}"
+            );
+        }
     }
 }

@@ -10,7 +10,8 @@ pub struct Radiance {
 }
 
 impl Radiance {
-    pub(super) fn new(count: usize) -> Self {
+    /// None at `count` wavelengths.
+    pub fn new(count: usize) -> Self {
         let mut dark = Self::default();
         dark.clear(count);
         dark

@@ -25,20 +25,33 @@ pub struct Camera {
     pub pan: Option<Track<f64>>,
     /// Pitch added to where it looks, degrees, positive upwards. Default: 0.
     pub tilt: Option<Track<f64>>,
-    /// Horizontal field of view, degrees, above 0 and below 180; this or `vfov`. Default: 90.
-    #[schemars(extend("exclusiveMinimum" = 0, "exclusiveMaximum" = 180))]
+    /// Horizontal field of view, degrees; this or `vfov`, the other angle follows from square
+    /// pixels. Perspective: above 0 and below 180, default 90. Equirectangular: up to 360. Fisheye:
+    /// the circle's angle where it spans the width, up to 360.
+    #[schemars(extend("exclusiveMinimum" = 0, "maximum" = 360))]
     pub hfov: Option<Track<f64>>,
-    /// Vertical field of view, degrees, above 0 and below 180; in place of `hfov`.
-    #[schemars(extend("exclusiveMinimum" = 0, "exclusiveMaximum" = 180))]
+    /// Vertical field of view, degrees, in place of `hfov`. Perspective: above 0 and below 180.
+    /// Equirectangular: up to 180. Fisheye: the circle's angle where it spans the height, up to 360.
+    #[schemars(extend("exclusiveMinimum" = 0, "maximum" = 360))]
     pub vfov: Option<Track<f64>>,
-    /// How directions become pixels. Default: "perspective".
+    /// How directions, in the camera's rest frame, become pixels. Default: "perspective".
     pub projection: Option<Projection>,
 }
 
 /// How directions become pixels.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum Projection {
     /// Straight lines stay straight.
+    #[default]
     Perspective,
+    /// A panorama: columns are yaw from where the camera looks, positive to the right, rows are
+    /// pitch, upwards positive. Without `hfov` and `vfov` the whole sphere fills the image, 360° by
+    /// 180° whatever its shape; with one of them, that angle spans the width or height and the
+    /// other follows from square pixels, up to what the sphere has.
+    Equirectangular,
+    /// A dome (equidistant): the angle from where the camera looks grows in proportion to the
+    /// distance from the centre. Without `hfov` and `vfov` a circle of 180° spans the shorter side.
+    /// Outside of the circle nothing is seen: it is black, and layers have the background's values.
+    Fisheye,
 }

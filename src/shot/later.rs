@@ -27,8 +27,6 @@ const LATER: &[(&str, When, &str)] = &[
     ("model[].light_units", Always, "leave it out: lamps are read as \"standard\""),
     ("camera.model", Always, "place the camera with `position` and `look_at`"),
     ("camera.node", Always, "place the camera with `position` and `look_at`"),
-    ("camera.projection", Word("equirectangular"), "use \"perspective\""),
-    ("camera.projection", Word("fisheye"), "use \"perspective\""),
     ("sensor.tone", Word("filmic"), "use \"clip\""),
     ("accuracy.spectra", Word("lines"), "use \"grid\" or \"spline\""),
     ("accuracy.spectra", Word("rgb"), "use \"grid\", and doppler = \"off\" for no shift"),

@@ -214,6 +214,7 @@ pub(crate) fn hits(set: &Set) -> Vec<Option<Hit>> {
             scene
                 .camera
                 .looks_along([x / f64::from(width), y / f64::from(height)])
+                .unwrap()
         })
         .collect();
     let mut trees = ShadeTrees::default();

@@ -276,8 +276,11 @@ fn backwards(set: &Set) -> Vec<[f32; 3]> {
                 (f64::from(y) + dy) / f64::from(height),
             ];
             let mut trees = ShadeTrees::default();
-            view.tracer()
-                .trace(&[scene.camera.looks_along(point)], &mut scratch, &mut trees);
+            view.tracer().trace(
+                &[scene.camera.looks_along(point).unwrap()],
+                &mut scratch,
+                &mut trees,
+            );
             let xyz = view.shader().xyz(&trees, trees.roots[0], &mut shading);
             sum = [0, 1, 2].map(|i| sum[i] + xyz[i]);
         }

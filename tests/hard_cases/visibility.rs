@@ -346,7 +346,8 @@ fn ties(scene: &Scene) -> usize {
     let tied = |i: &i32| {
         let direction = scene
             .camera
-            .looks_along([f64::from(i % 64) / 64.0, f64::from(i / 64) / 64.0]);
+            .looks_along([f64::from(i % 64) / 64.0, f64::from(i / 64) / 64.0])
+            .unwrap();
         let [a, b] = [0, 2].map(|worldline| meets(worldline, direction));
         a.is_some() && a == b
     };

@@ -104,7 +104,7 @@ impl Thumbnail {
                     (f64::from(x) + 0.5) / f64::from(WIDTH),
                     (f64::from(y) + 0.5) / f64::from(HEIGHT),
                 ];
-                directions.push(scene.camera.looks_along(point).to_array());
+                directions.push(scene.camera.looks_along(point).unwrap().to_array());
             }
         }
         Self {

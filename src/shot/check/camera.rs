@@ -1,7 +1,7 @@
 //! The camera: one way to say where it looks and how wide, and something to look at.
 
 use super::Checks;
-use crate::shot::Track;
+use crate::shot::{Projection, Track};
 
 impl Checks<'_> {
     pub(super) fn camera(&mut self) {
@@ -15,6 +15,7 @@ impl Checks<'_> {
         self.either("look_at", "yaw");
         self.either("look_at", "pitch");
         self.either("hfov", "vfov");
+        self.fields_of_view();
         self.looks_at_itself();
     }
 
@@ -23,6 +24,52 @@ impl Checks<'_> {
         if self.given(&format!("camera.{one}")) && self.given(&path) {
             let message = format!("`{one}` and `{other}` exclude each other");
             self.say(&path, message, "leave out one of them");
+        }
+    }
+
+    /// What the schema, which knows no projection, lets pass.
+    fn fields_of_view(&mut self) {
+        let camera = &self.shot.camera;
+        if camera.projection.is_none() && self.given("camera.projection") {
+            return; // it is mistaken by itself
+        }
+        match camera.projection.unwrap_or_default() {
+            Projection::Perspective => {
+                let help = "a wider view needs projection = \"fisheye\" or \"equirectangular\"";
+                let fits = |angle| angle < 180.0;
+                self.angles("camera.hfov", camera.hfov.as_ref(), fits, "below 180", help);
+                self.angles("camera.vfov", camera.vfov.as_ref(), fits, "below 180", help);
+            }
+            Projection::Equirectangular => {
+                let help =
+                    "the sphere has 180 degrees from pole to pole, and 360 around it: `hfov`";
+                let fits = |angle| angle <= 180.0;
+                self.angles(
+                    "camera.vfov",
+                    camera.vfov.as_ref(),
+                    fits,
+                    "at most 180",
+                    help,
+                );
+            }
+            Projection::Fisheye => {}
+        }
+    }
+
+    fn angles(
+        &mut self,
+        key: &str,
+        angle: Option<&Track<f64>>,
+        fits: fn(f64) -> bool,
+        bound: &str,
+        help: &str,
+    ) {
+        for (end, degrees) in angle.into_iter().flat_map(Track::authored) {
+            if !fits(degrees) {
+                let key = format!("{key}{end}");
+                let message = format!("`{key}` must be {bound}, not {degrees}");
+                self.say(&key, message, help);
+            }
         }
     }
 

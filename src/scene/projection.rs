@@ -1,0 +1,240 @@
+//! Projections: which direction an image point is seen in, in camera space (x right, y up, z back).
+//!
+//! Image points are in fractions of the image, from 0 at the left and top to 1; a little outside
+//! of it, where the pixel's filter reaches, the same formulas go on. Angles are in radians. The
+//! equirectangular and the equidistant projection are those of Snyder, Map Projections: A Working
+//! Manual (1987), pp. 90 and 191.
+
+use crate::shot::{self, Shot, Track};
+use glam::DVec3;
+use std::f64::consts::{PI, TAU};
+
+/// Horizontal angle of view where the shot gives none, degrees.
+const PERSPECTIVE_DEG: f64 = 90.0;
+/// Angle across the shorter side where the shot gives none, degrees.
+const FISHEYE_DEG: f64 = 180.0;
+
+/// How image points become directions.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Projection {
+    /// Straight lines stay straight.
+    Perspective {
+        /// Tangents of half the horizontal and vertical angle of view.
+        tan_half: [f64; 2],
+    },
+    /// Columns of equal yaw, rows of equal pitch.
+    Equirectangular {
+        /// Half the horizontal and vertical angle of view, at most π and π/2.
+        half: [f64; 2],
+    },
+    /// The angle from the axis grows in proportion to the distance from the image's centre.
+    Fisheye {
+        /// That angle in the middle of the right and of the upper edge.
+        edge: [f64; 2],
+        /// Where the circle ends beyond which nothing is seen; at most π.
+        half: f64,
+    },
+}
+
+impl Projection {
+    /// The shot's projection in one image.
+    pub(super) fn new(shot: &Shot, frame: u32) -> Self {
+        let angle = |track: &Option<Track<f64>>| {
+            let degrees = track.as_ref()?.at(frame, shot.shot.frames);
+            Some(degrees.to_radians())
+        };
+        let given = [angle(&shot.camera.hfov), angle(&shot.camera.vfov)];
+        let size = shot.image.size.map(f64::from);
+        match shot.camera.projection.unwrap_or_default() {
+            shot::Projection::Perspective => perspective(given, size),
+            shot::Projection::Equirectangular => equirectangular(given, size),
+            shot::Projection::Fisheye => fisheye(given, size),
+        }
+    }
+
+    /// A vector along the direction in which `point` is seen, of some length above 0; None where
+    /// nothing is seen.
+    #[inline(always)]
+    pub(super) fn towards(&self, point: [f64; 2]) -> Option<DVec3> {
+        // From the centre, 1 at the right and upper edge.
+        let (right, up) = (2.0 * point[0] - 1.0, 1.0 - 2.0 * point[1]);
+        match self {
+            Self::Perspective { tan_half } => {
+                Some(DVec3::new(right * tan_half[0], up * tan_half[1], -1.0))
+            }
+            Self::Equirectangular { half } => Some(by_yaw_and_pitch(right * half[0], up * half[1])),
+            Self::Fisheye { edge, half } => off_axis(right * edge[0], up * edge[1], *half),
+        }
+    }
+}
+
+/// Beyond a pole the cosine is negative: the row goes on upon the other side. Kept out of the loop
+/// over rays, which would else be slower for perspectives too.
+#[inline(never)]
+fn by_yaw_and_pitch(yaw: f64, pitch: f64) -> DVec3 {
+    let (sin_yaw, cos_yaw) = yaw.sin_cos();
+    let (sin_pitch, cos_pitch) = pitch.sin_cos();
+    DVec3::new(cos_pitch * sin_yaw, sin_pitch, -cos_pitch * cos_yaw)
+}
+
+/// The direction at the angle |(x, y)| from the axis, up to `half`; kept apart as the other.
+#[inline(never)]
+fn off_axis(x: f64, y: f64, half: f64) -> Option<DVec3> {
+    let angle = x.hypot(y);
+    let (sin, cos) = angle.sin_cos();
+    let per_angle = if angle > 0.0 { sin / angle } else { 1.0 };
+    (angle <= half).then(|| DVec3::new(x * per_angle, y * per_angle, -cos))
+}
+
+/// From the angles that are given, across an image of `size` pixels.
+fn perspective(given: [Option<f64>; 2], [width, height]: [f64; 2]) -> Projection {
+    let tan = |angle: f64| (angle / 2.0).tan();
+    let tan_half = match given {
+        [None, Some(vfov)] => [tan(vfov) * width / height, tan(vfov)],
+        [hfov, _] => {
+            let horizontal = tan(hfov.unwrap_or(PERSPECTIVE_DEG.to_radians()));
+            [horizontal, horizontal * height / width]
+        }
+    };
+    Projection::Perspective { tan_half }
+}
+
+/// As [`perspective`]. No side spans more than the sphere has.
+fn equirectangular(given: [Option<f64>; 2], [width, height]: [f64; 2]) -> Projection {
+    let [across, down] = match given {
+        [None, None] => [TAU, PI],
+        [None, Some(vfov)] => [(vfov * width / height).min(TAU), vfov],
+        [Some(hfov), _] => [hfov, (hfov * height / width).min(PI)],
+    };
+    Projection::Equirectangular {
+        half: [across / 2.0, down / 2.0],
+    }
+}
+
+/// As [`perspective`].
+fn fisheye(given: [Option<f64>; 2], [width, height]: [f64; 2]) -> Projection {
+    let (field, diameter) = match given {
+        [None, None] => (FISHEYE_DEG.to_radians(), width.min(height)),
+        [None, Some(vfov)] => (vfov, height),
+        [Some(hfov), _] => (hfov, width),
+    };
+    let half = field / 2.0;
+    Projection::Fisheye {
+        edge: [half * (width / diameter), half * (height / diameter)],
+        half,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const WIDE: [f64; 2] = [1280.0, 720.0];
+
+    fn seen(projection: Projection, point: [f64; 2]) -> DVec3 {
+        let towards = projection.towards(point).unwrap();
+        assert!((towards.length() - 1.0).abs() < 4e-16, "{towards}");
+        towards
+    }
+
+    fn near(found: DVec3, expected: DVec3) {
+        assert!((found - expected).length() < 1e-15, "{found} {expected}");
+    }
+
+    #[test]
+    fn a_panorama_holds_the_whole_sphere_whatever_its_shape() {
+        for size in [WIDE, [10.0, 700.0]] {
+            let sphere = equirectangular([None, None], size);
+            near(seen(sphere, [0.5, 0.5]), DVec3::NEG_Z);
+            near(seen(sphere, [0.75, 0.5]), DVec3::X);
+            near(seen(sphere, [0.25, 0.5]), DVec3::NEG_X);
+            // The seam is behind the camera, at both edges.
+            near(seen(sphere, [0.0, 0.5]), DVec3::Z);
+            near(seen(sphere, [1.0, 0.5]), DVec3::Z);
+            // All of the uppermost row's edge is one pole.
+            for x in [0.0, 0.1, 0.5, 1.0] {
+                near(seen(sphere, [x, 0.0]), DVec3::Y);
+                near(seen(sphere, [x, 1.0]), DVec3::NEG_Y);
+            }
+            let diagonal = DVec3::new(0.5, 0.5_f64.sqrt(), -0.5);
+            near(seen(sphere, [0.625, 0.25]), diagonal);
+        }
+    }
+
+    #[test]
+    fn beyond_a_pole_or_the_seam_a_panorama_goes_on_upon_the_other_side() {
+        let sphere = equirectangular([None, None], WIDE);
+        near(seen(sphere, [0.25, -0.01]), seen(sphere, [0.75, 0.01]));
+        near(seen(sphere, [0.6, 1.02]), seen(sphere, [0.1, 0.98]));
+        near(seen(sphere, [1.03, 0.4]), seen(sphere, [0.03, 0.4]));
+    }
+
+    #[test]
+    fn a_panorama_of_one_given_angle_has_square_pixels_up_to_the_sphere() {
+        let half = |given: [Option<f64>; 2], size| match equirectangular(given, size) {
+            Projection::Equirectangular { half } => half.map(f64::to_degrees),
+            other => panic!("{other:?}"),
+        };
+        let close = |found: [f64; 2], expected: [f64; 2]| {
+            assert!(
+                (0..2).all(|i| (found[i] - expected[i]).abs() < 1e-13),
+                "{found:?}"
+            );
+        };
+        let degrees = |angle: f64| Some(angle.to_radians());
+        close(half([degrees(160.0), None], WIDE), [80.0, 45.0]);
+        close(half([None, degrees(90.0)], WIDE), [80.0, 45.0]);
+        close(half([degrees(360.0), None], WIDE), [180.0, 90.0]);
+        close(half([None, degrees(180.0)], [300.0, 100.0]), [180.0, 90.0]);
+    }
+
+    #[test]
+    fn a_fisheye_of_half_the_sphere_spans_the_shorter_side() {
+        let dome = fisheye([None, None], [200.0, 100.0]);
+        near(seen(dome, [0.5, 0.5]), DVec3::NEG_Z);
+        near(seen(dome, [0.75, 0.5]), DVec3::X);
+        near(seen(dome, [0.5, 0.0]), DVec3::Y);
+        near(seen(dome, [0.5, 1.0]), DVec3::NEG_Y);
+        // Half way out in the picture is half the angle, in every direction.
+        let eighth = 0.25 * 0.5_f64.sqrt();
+        near(
+            seen(dome, [0.5 - eighth / 2.0, 0.5 - eighth]),
+            DVec3::new(-0.5, 0.5, -0.5_f64.sqrt()),
+        );
+        for outside in [
+            [0.7501, 0.5],
+            [0.5, -0.0001],
+            [0.7, 0.1],
+            [0.0, 0.0],
+            [1.0, 1.0],
+        ] {
+            assert_eq!(dome.towards(outside), None, "{outside:?}");
+        }
+    }
+
+    #[test]
+    fn a_given_angle_of_a_fisheye_spans_its_own_side() {
+        let size = [200.0, 100.0];
+        let across = fisheye([Some(PI), None], size);
+        near(seen(across, [1.0, 0.5]), DVec3::X);
+        near(
+            seen(across, [0.5, 0.0]),
+            DVec3::new(0.0, 0.5_f64.sqrt(), -0.5_f64.sqrt()),
+        );
+        assert_eq!(across.towards([0.0, 0.0]), None);
+        // A full turn: what lies behind the camera is the circle itself.
+        let down = fisheye([None, Some(TAU)], size);
+        for edge in [[0.5, 0.0], [0.5, 1.0], [0.25, 0.5], [0.75, 0.5]] {
+            near(seen(down, edge), DVec3::Z);
+        }
+        near(seen(down, [0.625, 0.5]), DVec3::X);
+    }
+
+    #[test]
+    fn next_to_the_centre_a_fisheye_looks_along_the_axis() {
+        let dome = fisheye([Some(1e-300), None], WIDE);
+        for x in [0.5, 0.5 + 1e-16, 0.500001, 1.0] {
+            near(seen(dome, [x, 0.5]), DVec3::NEG_Z);
+        }
+    }
+}
