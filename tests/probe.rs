@@ -13,7 +13,7 @@
 use std::path::{Path, PathBuf};
 
 use rayon::prelude::*;
-use restframe::probe::{Probe, probe};
+use restframe::probe::{Probe, ProbeHit, probe};
 use restframe::queue::Prepared;
 use restframe::render::View;
 use restframe::scene::Scene;
@@ -24,12 +24,14 @@ use serde::Deserialize;
 
 /// Of D, relative.
 const DOPPLER: f64 = 1e-9;
-/// Of events and distances, relative to the distance: what an f32 mesh would just reach.
+/// Of events and distances, relative to the distance, or to the sum of all to the camera: what an f32 mesh would just reach.
 const EVENT: f64 = 1e-5;
 /// Rounding of an event far from the lab's origin, relative to its own coordinates.
 const FAR: f64 = 1e-14;
 /// Of components of normals.
 const NORMAL: f64 = 1e-6;
+/// Of what a node's term passes on, and of what is cut off.
+const COEFFICIENT: f64 = 1e-9;
 /// Of spectral radiance at every wavelength, relative to its peak over the window.
 const RADIANCE: f64 = 1e-3;
 /// Of X, Y and Z, relative to the greatest of them. Red, green and blue by the same.
@@ -47,6 +49,12 @@ struct Expected {
     #[serde(default = "first")]
     frame: u32,
     hit: Option<ExpectedHit>,
+    /// What is seen in mirrors and through glass.
+    #[serde(default)]
+    further: Vec<ExpectedNode>,
+    /// Share of that which is not followed; None where it is not said what counts.
+    #[serde(default = "nothing")]
+    cut: Option<f64>,
     peak: f64,
     /// In millionths of the peak.
     radiance: Vec<f64>,
@@ -56,14 +64,36 @@ struct Expected {
 
 #[derive(Deserialize)]
 struct ExpectedHit {
-    model: String,
     material: String,
+    doppler: f64,
+    #[serde(flatten)]
+    place: ExpectedPlace,
+}
+
+#[derive(Deserialize)]
+struct ExpectedPlace {
+    model: String,
     worldline: String,
     t: f64,
     x: [f64; 3],
+    /// To what it is seen in, or to the camera.
     distance: f64,
     normal: [f64; 3],
+}
+
+#[derive(Deserialize)]
+struct ExpectedNode {
+    /// A letter for each surface on the way there: m if it is seen in a mirror, r through glass.
+    way: String,
+    coefficient: f64,
+    /// To what it is seen in.
     doppler: f64,
+    /// None if it is the background.
+    hit: Option<ExpectedPlace>,
+}
+
+fn nothing() -> Option<f64> {
+    Some(0.0)
 }
 
 fn usual_pixel() -> [u32; 2] {
@@ -126,33 +156,87 @@ fn greatest(values: &[f64]) -> f64 {
     values.iter().fold(0.0, |top, v| v.abs().max(top))
 }
 
+/// A quantity, its error, and what is allowed.
+type Errors = Vec<(&'static str, f64, f64)>;
+
+/// Adds the errors of a surface at the end of a way that is `length` long.
+fn place_errors(errors: &mut Errors, expected: &ExpectedPlace, found: &ProbeHit, length: f64) {
+    let same = expected.model == found.model && expected.worldline == found.worldline;
+    errors.push(("name", f64::from(u8::from(!same)), 0.0));
+    let [x, y, z] = expected.x;
+    let coordinates = [expected.t, x, y, z];
+    let off = (found.distance - expected.distance).abs();
+    errors.push(("distance", off / length, EVENT));
+    let [x, y, z] = found.event.x;
+    let off = apart(&[found.event.t, x, y, z], &coordinates);
+    let far = FAR * greatest(&coordinates) / length;
+    errors.push(("event", off / length, EVENT + far));
+    let normal = apart(&found.normal, &expected.normal);
+    errors.push(("normal", normal, NORMAL));
+}
+
+/// Adds the errors of all that is seen in the first surface, in whatever order it was followed.
+fn chain_errors(errors: &mut Errors, expected: &Expected, found: &Probe) {
+    if let Some(cut) = expected.cut {
+        let off = (found.cut - cut).abs();
+        errors.push(("share that is cut off", off, COEFFICIENT));
+    }
+    let first = expected.hit.as_ref();
+    let mut ways: Vec<(String, f64, f64)> = Vec::new();
+    let mut unseen = expected.further.len();
+    for node in &found.chain {
+        let Some(parent) = node.parent else {
+            let e = first.map_or((1.0, 0.0), |e| (e.doppler, e.place.distance));
+            ways.push((String::new(), e.0, e.1));
+            continue;
+        };
+        let (before, doppler, length) = &ways[parent as usize];
+        let letter = match node.by {
+            Some("mirror") => "m",
+            Some("refraction") => "r",
+            other => panic!("{}: by {other:?}", expected.scene),
+        };
+        let way = format!("{before}{letter}");
+        let Some(e) = expected.further.iter().find(|e| e.way == way) else {
+            errors.push(("what is seen on a way", f64::INFINITY, 0.0));
+            return;
+        };
+        unseen -= 1;
+        let off = (node.coefficient / e.coefficient - 1.0).abs();
+        errors.push(("coefficient", off, COEFFICIENT));
+        let off = (node.doppler / e.doppler - 1.0).abs();
+        errors.push(("doppler on a way", off, DOPPLER));
+        let doppler = doppler * e.doppler;
+        let mut length = *length;
+        match (&e.hit, &node.hit) {
+            (None, None) => {}
+            (Some(e), Some(f)) => {
+                length += e.distance;
+                let off = (f.doppler / doppler - 1.0).abs();
+                errors.push(("doppler of a way", off, DOPPLER));
+                place_errors(errors, e, f, length);
+            }
+            _ => errors.push(("whether a surface is seen", f64::INFINITY, 0.0)),
+        }
+        ways.push((way, doppler, length));
+    }
+    errors.push(("ways that are not seen", unseen as f64, 0.0));
+}
+
 /// Errors over what is allowed, by quantity; or what is plainly wrong.
-fn errors(expected: &Expected, found: &Probe, imaged: [f64; 3]) -> Vec<(&'static str, f64, f64)> {
+fn errors(expected: &Expected, found: &Probe, imaged: [f64; 3]) -> Errors {
     let mut errors = Vec::new();
     match (&expected.hit, &found.hit) {
         (None, None) => {}
         (Some(e), Some(f)) => {
-            let same = [
-                (&e.model, &f.model),
-                (&e.material, &f.material),
-                (&e.worldline, &f.worldline),
-            ];
-            let wrong = same.iter().filter(|(e, f)| e != f).count();
-            errors.push(("name", wrong as f64, 0.0));
+            let same = e.material == f.material;
+            errors.push(("name", f64::from(u8::from(!same)), 0.0));
             errors.push(("doppler", (f.doppler / e.doppler - 1.0).abs(), DOPPLER));
-            let coordinates = [e.t, e.x[0], e.x[1], e.x[2]];
-            let far = FAR * greatest(&coordinates) / e.distance;
-            errors.push(("distance", (f.distance / e.distance - 1.0).abs(), EVENT));
-            let event = [f.event.t, f.event.x[0], f.event.x[1], f.event.x[2]];
-            errors.push((
-                "event",
-                apart(&event, &coordinates) / e.distance,
-                EVENT + far,
-            ));
-            errors.push(("normal", apart(&f.normal, &e.normal), NORMAL));
+            place_errors(&mut errors, &e.place, f, e.place.distance);
         }
         _ => errors.push(("whether a surface is seen", f64::INFINITY, 0.0)),
     }
+    chain_errors(&mut errors, expected, found);
     let axis: Vec<f64> = (0..84)
         .map(|j| 360.0 * (830.0_f64 / 360.0).powf((f64::from(j) + 0.5) / 84.0))
         .collect();
