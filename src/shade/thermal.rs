@@ -24,14 +24,18 @@ const PER_UNIT: f64 = 100.0;
 impl BlackBodies {
     pub(super) fn new(sensor: &Sensor) -> Self {
         let wavelengths = sensor.axis().wavelengths_nm();
+        let mut curve = vec![0.0; wavelengths.len()];
+        let seen: Vec<(usize, f64)> = (0..)
+            .zip(wavelengths)
+            .filter(|(j, _)| sensor.sees(*j))
+            .collect();
         let count = ((HOTTEST_K / COLDEST_K).ln() * PER_UNIT).ceil() as usize + 4;
         let entries = (0..count)
             .map(|i| {
                 let kelvin = COLDEST_K * ((i as f64 - 1.0) / PER_UNIT).exp();
-                let curve: Vec<f64> = wavelengths
-                    .iter()
-                    .map(|&nm| planck::radiance(nm, kelvin))
-                    .collect();
+                for (j, nm) in &seen {
+                    curve[*j] = planck::radiance(*nm, kelvin);
+                }
                 sensor.xyz(&curve).map(|v| v.max(f64::MIN_POSITIVE).ln())
             })
             .collect();

@@ -1,6 +1,6 @@
 //! From spectral radiance at the sensor's wavelengths to XYZ.
 
-use super::cie::{EFFICACY, xyz_bar};
+use super::cie::{EFFICACY, RANGE_NM, xyz_bar};
 use super::log_grid::{LogAxis, Shifted};
 
 /// Steps of the quadrature that makes the weights, nm.
@@ -22,9 +22,11 @@ impl Sensor {
     pub fn cie1931(axis: LogAxis) -> Self {
         let count = axis.count() as i64;
         let mut weights = vec![[0.0; 3]; axis.count()];
+        // However wide the axis: where nothing is seen, nothing is to be integrated.
         let ends = [
-            axis.wavelength_nm(-0.5),
-            axis.wavelength_nm(count as f64 - 0.5),
+            axis.wavelength_nm(-0.5).max(RANGE_NM[0] - 1.0),
+            axis.wavelength_nm(count as f64 - 0.5)
+                .min(RANGE_NM[1] + 1.0),
         ];
         let steps = ((ends[1] - ends[0]) / STEP_NM).ceil() as usize;
         let step = (ends[1] - ends[0]) / steps as f64;
@@ -56,6 +58,13 @@ impl Sensor {
     /// The wavelengths.
     pub fn axis(&self) -> LogAxis {
         self.axis
+    }
+
+    /// Whether the j-th wavelength counts for X, Y or Z.
+    pub fn sees(&self, j: usize) -> bool {
+        self.weights
+            .get(j)
+            .is_some_and(|weights| *weights != [0.0; 3])
     }
 
     /// XYZ of spectral radiance at the axis' wavelengths.
@@ -195,6 +204,24 @@ mod tests {
                 "{flat:?} {exact:?}"
             );
         }
+    }
+
+    #[test]
+    fn on_a_very_wide_axis_only_the_visible_counts() {
+        let axis = LogAxis::new([1e-9, 1e15], 60_000);
+        let sensor = Sensor::cie1931(axis);
+        let flat = sensor.xyz(&vec![1.0; axis.count()]);
+        let exact = xyz_of(|_| 1.0);
+        for c in 0..3 {
+            let error = flat[c] / exact[c] - 1.0;
+            assert!(error.abs() < 1e-5, "{flat:?} {exact:?}");
+        }
+        for (j, nm) in axis.wavelengths_nm().into_iter().enumerate() {
+            assert!(!sensor.sees(j) || (350.0..850.0).contains(&nm), "{nm}");
+            assert!(sensor.sees(j) || !(380.0..780.0).contains(&nm), "{nm}");
+        }
+        let radio = Sensor::cie1931(LogAxis::new([1e6, 1e9], 84));
+        assert_eq!(radio.xyz(&[1.0; 84]), [0.0; 3]);
     }
 
     #[test]
