@@ -1,5 +1,9 @@
 //! What the centre of one pixel sees: the event, the Doppler factor, the curve, the colour.
 
+mod plot;
+
+pub use plot::{WideBand, plot, wide_band};
+
 use crate::relativity::Event;
 use crate::render::{LabPath, View};
 use crate::scene::Scene;
@@ -91,11 +95,7 @@ pub fn probe(
     scene: &Scene,
     exposure: f64,
 ) -> Probe {
-    let point = [0, 1].map(|i| (f64::from(pixel[i]) + 0.5) / f64::from(shot.image.size[i]));
-    let direction = scene.camera.looks_along(point);
-    let mut trees = ShadeTrees::default();
-    view.tracer()
-        .trace(&[direction], &mut Scratch::default(), &mut trees);
+    let (trees, direction) = look(shot, pixel, view, scene);
     let root = trees.roots[0];
     let chain = chain(view, scene, trees.nodes_of(root), direction);
     let light = view.shader().radiance(&trees, root);
@@ -116,6 +116,17 @@ pub fn probe(
         xyz,
         rgb,
     }
+}
+
+/// The shade tree of the ray through the centre of `pixel`, and its direction in the camera's rest
+/// frame.
+fn look(shot: &Shot, pixel: [u32; 2], view: &View<'_>, scene: &Scene) -> (ShadeTrees, DVec3) {
+    let point = [0, 1].map(|i| (f64::from(pixel[i]) + 0.5) / f64::from(shot.image.size[i]));
+    let direction = scene.camera.looks_along(point);
+    let mut trees = ShadeTrees::default();
+    view.tracer()
+        .trace(&[direction], &mut Scratch::default(), &mut trees);
+    (trees, direction)
 }
 
 fn chain(view: &View<'_>, scene: &Scene, nodes: &[Node], direction: DVec3) -> Vec<ProbeNode> {
