@@ -146,7 +146,7 @@ fn bounces_count_the_surfaces_on_the_way_and_none_means_off() {
          [[model]]\nname = \"one\"\nfile = \"wall.obj\"\nmaterial = \"mirror\"\nscale = 9\ntranslate = [0, 0, -2]\n\
          [[model]]\nname = \"two\"\nfile = \"wall.obj\"\nmaterial = \"mirror\"\nscale = 9\ntranslate = [0, 0, 2]\n\
          [material.mirror]\nmirror = { weight = 0.5, spectrum = 1.0 }\nemission = { scale = 1.0, spectrum = 1.0 }\n[camera]\n";
-    for (bounces, radiance, cut) in [(0, 1.0, 0.0), (1, 1.5, 0.25), (3, 1.875, 0.0625)] {
+    for (bounces, radiance, cut) in [(0, 1.0, 0.5), (1, 1.5, 0.25), (3, 1.875, 0.0625)] {
         let seen = sees(&mirror.replace("BOUNCES", &bounces.to_string()), [4, 4]);
         assert_eq!(seen.chain.len(), bounces + 1);
         assert_eq!(seen.cut, cut, "{bounces}");

@@ -95,6 +95,9 @@ struct ProbeArguments {
     /// The pixel; 0 0 is the upper left one
     #[arg(long, num_args = 2, value_names = ["X", "Y"], required = true)]
     pixel: Vec<u32>,
+    /// SVG file that gets a plot of the pixel's curves
+    #[arg(long, value_name = "FILE")]
+    plot: Option<PathBuf>,
     /// Answer as JSON
     #[arg(long)]
     json: bool,

@@ -1,12 +1,19 @@
 //! `restframe probe`.
 
-use super::{Failed, ProbeArguments, mistaken, misused, print, print_json};
-use crate::probe::{Probe, ProbeNode, probe};
-use crate::queue::Prepared;
+use super::{Failed, ProbeArguments, failed, mistaken, misused, print, print_json};
+use crate::film::plot::{Page, lay_out, svg};
+use crate::probe::{Probe, ProbeNode, plot, probe, wide_band};
+use crate::queue::{Prepared, write_atomically};
 use crate::render::{View, motion_mistake, rows, spliced};
 use crate::scene::Scene;
 use crate::shot::SensorColor;
 use crate::trace::Stage;
+
+/// The page of a plot: two panels side by side, that fit into a page of text.
+const PAGE: Page = Page {
+    size: [1120.0, 460.0],
+    font: 14.0,
+};
 
 /// Answers for the centre of one pixel, under the effects of the splice that it lies in.
 pub(super) fn run(arguments: &ProbeArguments) -> Result<(), Failed> {
@@ -39,6 +46,13 @@ pub(super) fn run(arguments: &ProbeArguments) -> Result<(), Failed> {
         .map_err(|error| mistaken(&motion_mistake(shot, &error)))?;
     let stops = exposing.stops(frame, shot.shot.frames);
     let answer = probe(shot, frame, pixel, &view, &scene, stops);
+    if let Some(file) = &arguments.plot {
+        let title = shot.shot.title.clone().unwrap_or_else(|| prepared.stem());
+        let wide = wide_band(shot, &answer, &view, &scene);
+        let plot = plot(&title, shot.sensor.window, &answer, &wide);
+        let text = svg(&lay_out(&plot, PAGE));
+        write_atomically(file, text.as_bytes()).map_err(|error| failed(&error.to_string()))?;
+    }
     if arguments.json {
         print_json(&answer)
     } else {

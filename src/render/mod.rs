@@ -4,7 +4,7 @@ use crate::film::{Channels, Development, Film};
 use crate::plan::{self, Called};
 use crate::scene::Scene;
 use crate::shade::{Settings, Shader};
-use crate::shot::{Effects, Layer, SensorColor, Shot, Splice, Switch};
+use crate::shot::{Accuracy, Effects, Layer, Sensor, SensorColor, Shot, Spectra, Splice, Switch};
 use crate::spectrum::color_space;
 use crate::trace::{Samples, Spacetime, Stage, Surface, Tracer};
 use glam::DVec3;
@@ -92,6 +92,27 @@ impl<'a> View<'a> {
     /// The shader of this image.
     pub fn shader(&self) -> &Shader {
         &self.shader
+    }
+
+    /// A shader of this image over another band (nm), for curves rather than pictures: spectra are
+    /// read as their author wrote them, so that no baking shows at any wavelength or shift.
+    pub fn shader_over(&self, window_nm: [f64; 2], wavelengths: u32) -> Shader {
+        let settings = Settings {
+            called: &self.called,
+            accuracy: &Accuracy {
+                spectra: Spectra::Spline,
+                wavelengths,
+                ..Accuracy::default()
+            },
+            sensor: &Sensor {
+                window: window_nm,
+                ..Sensor::default()
+            },
+            // Nothing is tabulated over D.
+            reach: 0.0,
+            lamp_reach: 0.0,
+        };
+        Shader::new(self.scene, &settings)
     }
 
     /// How its worldlines stand to each other.

@@ -32,14 +32,18 @@ impl BlackBodies {
         let wavelengths = sensor.axis().wavelengths_nm();
         let [shortest, longest] = sensor.axis().window_nm();
         let (coldest_k, hottest_k) = (DARK_NM_K / longest, BRIGHT_NM_K / shortest);
+        let mut curve = vec![0.0; wavelengths.len()];
+        let seen: Vec<(usize, f64)> = (0..)
+            .zip(wavelengths)
+            .filter(|(j, _)| sensor.sees(*j))
+            .collect();
         let count = ((hottest_k / coldest_k).ln() * PER_UNIT).ceil() as usize + 4;
         let entries = (0..count)
             .map(|i| {
                 let kelvin = coldest_k * ((i as f64 - 1.0) / PER_UNIT).exp();
-                let curve: Vec<f64> = wavelengths
-                    .iter()
-                    .map(|&nm| planck::radiance(nm, kelvin))
-                    .collect();
+                for (j, nm) in &seen {
+                    curve[*j] = planck::radiance(*nm, kelvin);
+                }
                 sensor.xyz(&curve).map(|v| v.max(f64::MIN_POSITIVE).ln())
             })
             .collect();

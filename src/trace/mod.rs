@@ -129,7 +129,7 @@ impl Tracer<'_> {
         let doppler = 1.0 / nearest.frequency_ratio;
         let (place, material) = self.add_surface(nearest, None, doppler, trees);
         match place {
-            Some(place) if self.bounces > 0 && material.passes_light_on() => {
+            Some(place) if material.passes_light_on() => {
                 grow::grow(self, &place, material, buds, trees)
             }
             _ => 0.0,
@@ -149,8 +149,7 @@ impl Tracer<'_> {
         let number = self.scene.geometry.instances[hit.instance as usize].material;
         let material = &self.scene.materials[number as usize];
         let lamps = material.takes_lamps() && !self.scene.lights.is_empty();
-        let branches = self.bounces > 0 && material.passes_light_on();
-        let place = (lamps || branches)
+        let place = (lamps || material.passes_light_on())
             .then(|| Place::new(self.scene, &hit, nearest.direction, nearest.time));
         if let (Some(place), true) = (&place, lamps) {
             direct::add_lamps(self, place, material, &mut trees.lit);

@@ -1,5 +1,9 @@
 //! What the centre of one pixel sees: the event, the Doppler factor, the curve, the colour.
 
+mod plot;
+
+pub use plot::{WideBand, plot, wide_band};
+
 use crate::relativity::Event;
 use crate::render::{LabPath, View, development};
 use crate::scene::Scene;
@@ -96,12 +100,19 @@ pub fn probe(
     scene: &Scene,
     exposure: f64,
 ) -> Probe {
-    let point = [0, 1].map(|i| (f64::from(pixel[i]) + 0.5) / f64::from(shot.image.size[i]));
-    let direction = scene.camera.looks_along(point);
     let count = view.shader().wavelengths_nm().len();
-    let (chain, cut, light) = match direction {
-        Some(direction) => seen(view, scene, direction),
-        None => (Vec::new(), 0.0, Radiance::new(count)),
+    let (chain, cut, light, direction) = match look(shot, pixel, view, scene) {
+        Some((trees, direction)) => {
+            let root = trees.roots[0];
+            let chain = chain(view, scene, trees.nodes_of(root), direction);
+            (
+                chain,
+                root.cut,
+                view.shader().radiance(&trees, root),
+                Some(direction),
+            )
+        }
+        None => (Vec::new(), 0.0, Radiance::new(count), None),
     };
     let radiance = light.total();
     let channels = view.shader().xyz_of(&radiance);
@@ -127,14 +138,20 @@ pub fn probe(
     }
 }
 
-/// The shade tree in a direction, what was cut off from it, and the radiance from there.
-fn seen(view: &View<'_>, scene: &Scene, direction: DVec3) -> (Vec<ProbeNode>, f64, Radiance) {
+/// The shade tree of the ray through the centre of `pixel`, and its direction in the camera's rest
+/// frame; None where the camera's projection has no such ray.
+fn look(
+    shot: &Shot,
+    pixel: [u32; 2],
+    view: &View<'_>,
+    scene: &Scene,
+) -> Option<(ShadeTrees, DVec3)> {
+    let point = [0, 1].map(|i| (f64::from(pixel[i]) + 0.5) / f64::from(shot.image.size[i]));
+    let direction = scene.camera.looks_along(point)?;
     let mut trees = ShadeTrees::default();
     view.tracer()
         .trace(&[direction], &mut Scratch::default(), &mut trees);
-    let root = trees.roots[0];
-    let chain = chain(view, scene, trees.nodes_of(root), direction);
-    (chain, root.cut, view.shader().radiance(&trees, root))
+    Some((trees, direction))
 }
 
 fn chain(view: &View<'_>, scene: &Scene, nodes: &[Node], direction: DVec3) -> Vec<ProbeNode> {

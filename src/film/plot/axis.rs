@@ -1,0 +1,295 @@
+//! An axis: from values to places on it, and its ticks.
+
+/// What a panel's side measures.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Axis {
+    /// What it measures, such as "wavelength".
+    pub label: String,
+    /// In which unit; empty if in none.
+    pub unit: String,
+    /// How values are spaced.
+    pub scale: Scale,
+    /// First and last value: finite, ascending, and above 0 if the scale is logarithmic.
+    pub range: [f64; 2],
+    /// Between the ticks of a linear axis; None for 1, 2 or 5 times a power of ten, as fits.
+    pub step: Option<f64>,
+}
+
+/// How values are spaced on an axis.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Scale {
+    /// Evenly.
+    Linear,
+    /// By their logarithms. What is not above the first value stands at the beginning.
+    Log,
+}
+
+/// A mark on an axis.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Tick {
+    /// From 0, the axis' beginning, to 1.
+    pub(super) place: f64,
+    /// None for a minor one.
+    pub(super) label: Option<String>,
+}
+
+/// Decimal exponents that f64 holds at full precision.
+const EXPONENTS: [i32; 2] = [-300, 308];
+/// Exponents of the last value of an axis whose labels are written out.
+const WRITTEN_OUT: std::ops::RangeInclusive<i32> = -2..=3;
+/// Rounding that is no reason for one more tick.
+const SLACK: f64 = 1e-9;
+
+impl Axis {
+    /// A linear axis from 0 to a round value not below `largest`, which is finite; to 1 if that is
+    /// 0.
+    pub fn from_zero(label: &str, unit: &str, largest: f64) -> Self {
+        let top = if largest > 0.0 {
+            let power = power(exponent(largest));
+            let step = round_up(largest / power / 4.0);
+            ((largest / power / step - SLACK).ceil() * step * power).min(f64::MAX)
+        } else {
+            1.0
+        };
+        Self::new(label, unit, Scale::Linear, [0.0, top])
+    }
+
+    /// A logarithmic axis over whole decades, around values that are finite and above 0.
+    pub fn decades(label: &str, unit: &str, [least, largest]: [f64; 2]) -> Self {
+        let high = (largest.log10() - SLACK).ceil() as i32;
+        let high = high.clamp(EXPONENTS[0] + 1, EXPONENTS[1]);
+        let low = (exponent(least)).min(high - 1);
+        Self::new(label, unit, Scale::Log, [power(low), power(high)])
+    }
+
+    /// An axis over a range.
+    pub fn new(label: &str, unit: &str, scale: Scale, range: [f64; 2]) -> Self {
+        Self {
+            label: label.to_owned(),
+            unit: unit.to_owned(),
+            scale,
+            range,
+            step: None,
+        }
+    }
+
+    /// Where a value lies, from 0 to 1; values beyond the ends lie there.
+    pub(super) fn place(&self, value: f64) -> f64 {
+        let [low, high] = self.range;
+        let place = match self.scale {
+            Scale::Linear => (value - low) / (high - low),
+            Scale::Log if value > low => {
+                (value.log10() - low.log10()) / (high.log10() - low.log10())
+            }
+            Scale::Log => 0.0,
+        };
+        if place.is_nan() {
+            return 0.0;
+        }
+        place.clamp(0.0, 1.0)
+    }
+
+    /// Whether a value is too small to be seen on the axis.
+    pub(super) fn hides(&self, value: f64) -> bool {
+        self.scale == Scale::Log && value <= self.range[0]
+    }
+
+    /// What stands beside the axis: its label, and the unit with the power of ten that its ticks'
+    /// labels lack.
+    pub(super) fn title(&self) -> String {
+        let factor = match (self.scale, self.factor()) {
+            (Scale::Log, _) | (_, 0) => String::new(),
+            (_, exponent) => format!("10{} ", superscript(exponent)),
+        };
+        match format!("{factor}{}", self.unit).trim() {
+            "" => self.label.clone(),
+            unit => format!("{} ({unit})", self.label),
+        }
+    }
+
+    /// Ticks, about `most` of them with labels.
+    pub(super) fn ticks(&self, most: usize) -> Vec<Tick> {
+        let most = most.max(2);
+        let ticks = match self.scale {
+            Scale::Linear => self.linear_ticks(most),
+            Scale::Log => self.log_ticks(most),
+        };
+        let tick = |(value, label): (f64, Option<String>)| Tick {
+            place: self.place(value),
+            label,
+        };
+        ticks.into_iter().map(tick).collect()
+    }
+
+    /// Exponent of the power of ten that labels of a linear axis lack.
+    fn factor(&self) -> i32 {
+        let exponent = exponent(self.range[0].abs().max(self.range[1].abs()));
+        if WRITTEN_OUT.contains(&exponent) {
+            0
+        } else {
+            exponent
+        }
+    }
+
+    fn linear_ticks(&self, most: usize) -> Vec<(f64, Option<String>)> {
+        let power = power(self.factor());
+        let [low, high] = self.range.map(|value| value / power);
+        let step = self
+            .step
+            .filter(|step| *step > 0.0)
+            .map_or_else(|| round_up((high - low) / most as f64), |step| step / power);
+        let decimals = (-step.log10().floor()).max(0.0) as usize;
+        let first = (low / step - SLACK).ceil() as i64;
+        let last = (high / step + SLACK).floor() as i64;
+        (first..=last)
+            .map(|i| {
+                let value = i as f64 * step;
+                let label = format!("{value:.decimals$}").replace('-', "−");
+                (value * power, Some(label))
+            })
+            .collect()
+    }
+
+    fn log_ticks(&self, most: usize) -> Vec<(f64, Option<String>)> {
+        let [low, high] = self.range;
+        let inside = |value: f64| value >= low * (1.0 - SLACK) && value <= high * (1.0 + SLACK);
+        let decades = exponent(low)..=exponent(high);
+        let span = high.log10() - low.log10();
+        let written = low >= 0.9e-3 && high <= 1.1e5;
+        let finely = span * 3.0 <= most as f64;
+        let stride = (span / most as f64).ceil().max(1.0) as i32;
+        let mut ticks = Vec::new();
+        for exponent in decades {
+            for digit in 1..=9 {
+                let value = f64::from(digit) * power(exponent);
+                let labelled = match digit {
+                    1 => exponent % stride == 0,
+                    2 | 5 => finely,
+                    _ => false,
+                };
+                let label = labelled.then(|| {
+                    if written {
+                        // Through its text: 3 · 10⁻² is no number that f64 holds.
+                        let decimals = (-exponent).max(0) as usize;
+                        format!("{value:.decimals$}")
+                    } else {
+                        power_label(digit, exponent)
+                    }
+                });
+                if inside(value) && (label.is_some() || stride == 1) {
+                    ticks.push((value, label));
+                }
+            }
+        }
+        ticks
+    }
+}
+
+fn power_label(digit: i32, exponent: i32) -> String {
+    let power = format!("10{}", superscript(exponent));
+    if digit == 1 {
+        power
+    } else {
+        format!("{digit}·{power}")
+    }
+}
+
+/// ⌊log₁₀ |value|⌋, among the [`EXPONENTS`].
+fn exponent(value: f64) -> i32 {
+    let exponent = (value.abs().max(f64::MIN_POSITIVE).log10() + SLACK).floor() as i32;
+    exponent.clamp(EXPONENTS[0], EXPONENTS[1])
+}
+
+fn power(exponent: i32) -> f64 {
+    10f64.powi(exponent)
+}
+
+/// The least of 1, 2 and 5 times a power of ten that is not below a value above 0.
+fn round_up(value: f64) -> f64 {
+    let power = power(exponent(value));
+    let digit = [1.0, 2.0, 5.0, 10.0]
+        .into_iter()
+        .find(|digit| digit * power >= value * (1.0 - SLACK));
+    digit.unwrap_or(10.0) * power
+}
+
+fn superscript(exponent: i32) -> String {
+    let raised = |sign: char| match sign {
+        '-' => '⁻',
+        '1' => '¹',
+        '2' => '²',
+        '3' => '³',
+        // The others stand in a row in Unicode.
+        digit => char::from_u32('⁰' as u32 + digit as u32 - '0' as u32).unwrap_or(digit),
+    };
+    exponent.to_string().chars().map(raised).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn labels(axis: &Axis, most: usize) -> Vec<String> {
+        let ticks = axis.ticks(most);
+        ticks.into_iter().filter_map(|tick| tick.label).collect()
+    }
+
+    #[test]
+    fn a_linear_axis_ends_at_a_round_value_and_has_round_labels() {
+        let axis = Axis::from_zero("light", "cd", 0.0173);
+        assert_eq!(axis.range[1], 0.02);
+        assert_eq!(
+            labels(&axis, 4),
+            ["0.000", "0.005", "0.010", "0.015", "0.020"]
+        );
+        assert_eq!(axis.title(), "light (cd)");
+    }
+
+    #[test]
+    fn labels_far_from_one_lack_a_power_of_ten_that_the_title_has() {
+        let axis = Axis::from_zero("light", "cd", 3.1e-9);
+        assert_eq!(labels(&axis, 4), ["0", "1", "2", "3", "4"]);
+        assert_eq!(axis.title(), "light (10⁻⁹ cd)");
+    }
+
+    #[test]
+    fn logarithmic_axes_label_decades_and_few_of_them_more_finely() {
+        let wide = Axis::new("wavelength", "nm", Scale::Log, [50.0, 5e4]);
+        assert_eq!(labels(&wide, 6), ["100", "1000", "10000"]);
+        let deep = Axis::decades("light", "", [3e-17, 0.7]);
+        assert_eq!(deep.range, [1e-17, 1.0]);
+        assert_eq!(
+            labels(&deep, 6),
+            ["10⁻¹⁵", "10⁻¹²", "10⁻⁹", "10⁻⁶", "10⁻³", "10⁰"]
+        );
+        let factor = Axis::new("D", "", Scale::Log, [0.05, 20.0]);
+        let expected = ["0.05", "0.1", "0.2", "0.5", "1", "2", "5", "10", "20"];
+        assert_eq!(labels(&factor, 12), expected);
+    }
+
+    #[test]
+    fn the_largest_and_the_smallest_numbers_have_axes() {
+        for value in [
+            f64::MAX,
+            1e308,
+            1e-290,
+            1e-308,
+            f64::MIN_POSITIVE,
+            5e-324,
+            0.0,
+        ] {
+            let mut axes = vec![Axis::from_zero("", "", value)];
+            if value > 0.0 {
+                axes.push(Axis::decades("", "", [value * 1e-6, value]));
+            }
+            for axis in axes {
+                assert!(axis.range[0] < axis.range[1] && axis.range[1].is_finite());
+                let place = axis.place(value);
+                assert!((0.0..=1.0).contains(&place), "{value:e}: {axis:?} {place}");
+                let labels = labels(&axis, 5);
+                assert!((2..12).contains(&labels.len()), "{value:e}: {labels:?}");
+                assert!(!labels.concat().contains("inf"), "{labels:?}");
+            }
+        }
+    }
+}

@@ -1,0 +1,334 @@
+//! A plot to a list of marks on a page.
+//!
+//! Text is measured by guess, [`CHARACTER`] of its size a character: whoever draws has fonts of
+//! their own. Space is left for a wide one.
+
+use super::axis::Tick;
+use super::drawing::{Anchor, Drawing, Group, Mark, Shape, Text};
+use super::heading::{caption, legend};
+use super::line::{simplified, visible_runs};
+use super::{Axis, Color, Panel, Plot, Series, Stroke};
+
+/// The page that a plot is drawn on.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Page {
+    /// Width and height, pixels.
+    pub size: [f64; 2],
+    /// Size of the font of labels, pixels.
+    pub font: f64,
+}
+
+const PAPER: Color = [255, 255, 255];
+pub(super) const INK: Color = [34, 34, 34];
+const GRID: Color = [222, 222, 222];
+/// Guessed width of a character, in sizes of the font.
+pub(super) const CHARACTER: f64 = 0.58;
+/// How far a drawn line may be from the curve, pixels.
+const TOLERANCE: f64 = 0.04;
+/// The font that widths of strokes are given for, pixels.
+const USUAL_FONT: f64 = 16.0;
+
+/// Places a plot on a page.
+pub fn lay_out(plot: &Plot, page: Page) -> Drawing {
+    let [width, height] = page.size;
+    let font = page.font;
+    let (caption, below) = caption(plot, page);
+    let legend_base = below + 1.7 * font;
+    let mut groups = vec![caption, legend(plot, [font, legend_base], font)];
+    let top = legend_base + 0.7 * font;
+    let share = width / plot.panels.len().max(1) as f64;
+    for (i, panel) in plot.panels.iter().enumerate() {
+        let place = Rect {
+            corner: [share * i as f64, top],
+            size: [share, height - top],
+        };
+        groups.push(Group {
+            id: format!("panel-{}", i + 1),
+            marks: Sheet::new(panel, place, font).marks(),
+        });
+    }
+    Drawing {
+        size: page.size,
+        paper: PAPER,
+        title: plot.caption.first().cloned().unwrap_or_default(),
+        groups,
+    }
+}
+
+/// A line through points on the page, or dots there, as a series is drawn.
+pub(super) fn strokes(class: &str, series: &Series, points: &[[f64; 2]], font: f64) -> Vec<Mark> {
+    let mark = |shape| Mark {
+        class: class.to_owned(),
+        color: series.color,
+        shape,
+    };
+    let scale = font / USUAL_FONT;
+    let line = |width: f64, dash: Option<f64>| {
+        vec![mark(Shape::Line {
+            points: points.to_vec(),
+            width: width * scale,
+            dash,
+        })]
+    };
+    match series.stroke {
+        Stroke::Solid(width) => line(width, None),
+        Stroke::Dashed(width) => line(width, Some(width * 2.5 * scale)),
+        Stroke::Dots(radius) => points
+            .iter()
+            .map(|center| {
+                mark(Shape::Dot {
+                    center: *center,
+                    radius: radius * scale,
+                })
+            })
+            .collect(),
+    }
+}
+
+#[derive(Debug, Clone, Copy)]
+struct Rect {
+    corner: [f64; 2],
+    size: [f64; 2],
+}
+
+/// A panel on its part of the page.
+struct Sheet<'a> {
+    panel: &'a Panel,
+    font: f64,
+    /// The rectangle between the axes.
+    area: Rect,
+    x_ticks: Vec<Tick>,
+    y_ticks: Vec<Tick>,
+}
+
+impl<'a> Sheet<'a> {
+    fn new(panel: &'a Panel, place: Rect, font: f64) -> Self {
+        let [above, right, below] = [1.9, 1.6, 3.7].map(|share| share * font);
+        let height = (place.size[1] - above - below).max(1.0);
+        let y_ticks = panel.y.ticks((height / (2.6 * font)) as usize);
+        let left = (2.9 + longest(&y_ticks) * CHARACTER) * font;
+        let width = (place.size[0] - left - right).max(1.0);
+        Self {
+            panel,
+            font,
+            area: Rect {
+                corner: [place.corner[0] + left, place.corner[1] + above],
+                size: [width, height],
+            },
+            x_ticks: panel.x.ticks((width / (4.5 * font)) as usize),
+            y_ticks,
+        }
+    }
+
+    fn x(&self, place: f64) -> f64 {
+        self.area.corner[0] + place * self.area.size[0]
+    }
+
+    fn y(&self, place: f64) -> f64 {
+        self.area.corner[1] + (1.0 - place) * self.area.size[1]
+    }
+
+    fn marks(&self) -> Vec<Mark> {
+        let mut marks = self.tints();
+        marks.extend(self.grid());
+        for series in &self.panel.series {
+            marks.extend(self.curve(series));
+        }
+        let corners = [[0.0, 1.0], [0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
+        marks.push(self.line("frame", INK, &corners));
+        marks.extend(self.labels());
+        marks
+    }
+
+    /// Each tint reaches to the end of the last, and the next one covers the rest of it: no seams.
+    fn tints(&self) -> Vec<Mark> {
+        let Axis { range, .. } = self.panel.x;
+        let tints = self.panel.tints.iter();
+        let inside = tints.filter(|tint| tint.range[1] > range[0] && tint.range[0] < range[1]);
+        let end = self.panel.tints.last().map_or(range[0], |t| t.range[1]);
+        let end = self.x(self.panel.x.place(end));
+        inside
+            .map(|tint| {
+                let start = self.x(self.panel.x.place(tint.range[0]));
+                Mark {
+                    class: "tint".to_owned(),
+                    color: tint.color,
+                    shape: Shape::Rect {
+                        corner: [start, self.area.corner[1]],
+                        size: [end - start, self.area.size[1]],
+                    },
+                }
+            })
+            .collect()
+    }
+
+    /// Lines across at labelled ticks, and short ones at the others.
+    fn grid(&self) -> Vec<Mark> {
+        const SHORT: f64 = 0.35;
+        let style = |tick: &Tick, [across, short]: [&'static str; 2], extent: f64| match tick.label
+        {
+            Some(_) => (across, GRID, 1.0),
+            None => (short, INK, SHORT * self.font / extent),
+        };
+        let [width, height] = self.area.size;
+        let upright = self.x_ticks.iter().map(|tick| {
+            let (class, color, end) = style(tick, ["x-tick", "x-minor"], height);
+            self.line(class, color, &[[tick.place, 0.0], [tick.place, end]])
+        });
+        let level = self.y_ticks.iter().map(|tick| {
+            let (class, color, end) = style(tick, ["y-tick", "y-minor"], width);
+            self.line(class, color, &[[0.0, tick.place], [end, tick.place]])
+        });
+        upright.chain(level).collect()
+    }
+
+    /// A thin line between places on the axes.
+    fn line(&self, class: &str, color: Color, places: &[[f64; 2]]) -> Mark {
+        let points = places.iter().map(|[x, y]| [self.x(*x), self.y(*y)]);
+        Mark {
+            class: class.to_owned(),
+            color,
+            shape: Shape::Line {
+                points: points.collect(),
+                width: self.font / USUAL_FONT,
+                dash: None,
+            },
+        }
+    }
+
+    fn curve(&self, series: &Series) -> Vec<Mark> {
+        let class = format!("curve {}", series.name);
+        let Panel { x, y, .. } = self.panel;
+        let on_page = |p: &[f64; 2]| [self.x(x.place(p[0])), self.y(y.place(p[1]))];
+        if let Stroke::Dots(_) = series.stroke {
+            let shown = series.points.iter().filter(|p| !y.hides(p[1]));
+            let dots: Vec<_> = shown.map(on_page).collect();
+            return strokes(&class, series, &dots, self.font);
+        }
+        let runs = visible_runs(&series.points, y).into_iter();
+        runs.flat_map(|run| {
+            let line: Vec<_> = run.iter().map(on_page).collect();
+            strokes(&class, series, &simplified(&line, TOLERANCE), self.font)
+        })
+        .collect()
+    }
+
+    fn labels(&self) -> Vec<Mark> {
+        let font = self.font;
+        let text =
+            |class, at, anchor, words: &str| label(class, anchor, Text::new(at, font, words));
+        let (left, bottom) = (self.x(0.0), self.y(0.0));
+        let (middle, center) = (self.x(0.5), self.y(0.5));
+        let mut marks = Vec::new();
+        for (place, value) in labelled(&self.x_ticks) {
+            let at = [self.x(place), bottom + 1.25 * font];
+            marks.push(text("x-value", at, Anchor::Middle, value));
+        }
+        for (place, value) in labelled(&self.y_ticks) {
+            let at = [left - 0.45 * font, self.y(place) + 0.35 * font];
+            marks.push(text("y-value", at, Anchor::End, value));
+        }
+        let Panel {
+            x, y, title, note, ..
+        } = self.panel;
+        let below = [middle, bottom + 2.8 * font];
+        marks.push(text("x-label", below, Anchor::Middle, &x.title()));
+        let beside = [
+            left - (longest(&self.y_ticks) * CHARACTER + 1.1) * font,
+            center,
+        ];
+        let upwards = Text {
+            upwards: true,
+            ..Text::new(beside, font, &y.title())
+        };
+        marks.push(label("y-label", Anchor::Middle, upwards));
+        let above = [left, self.y(1.0) - 0.55 * font];
+        marks.push(text("title", above, Anchor::Start, title));
+        if let Some(note) = note {
+            marks.push(text("note", [middle, center], Anchor::Middle, note));
+        }
+        marks
+    }
+}
+
+pub(super) fn label(class: &str, anchor: Anchor, text: Text) -> Mark {
+    Mark {
+        class: class.to_owned(),
+        color: INK,
+        shape: Shape::Text(Text { anchor, ..text }),
+    }
+}
+
+/// Characters of the longest label.
+fn longest(ticks: &[Tick]) -> f64 {
+    let lengths = labelled(ticks).map(|(_, label)| label.chars().count());
+    lengths.max().unwrap_or(0) as f64
+}
+
+fn labelled(ticks: &[Tick]) -> impl Iterator<Item = (f64, &str)> {
+    ticks
+        .iter()
+        .filter_map(|tick| Some((tick.place, tick.label.as_deref()?)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::Scale;
+    use super::*;
+
+    #[test]
+    fn a_plot_fits_pages_of_any_size() {
+        let curve = |name: &str, factor: f64| Series {
+            name: name.to_owned(),
+            color: [0, 0, 0],
+            stroke: Stroke::Solid(2.0),
+            points: (1..100)
+                .map(|i| [f64::from(i), factor * f64::from(i)])
+                .collect(),
+        };
+        let panel = |x: Axis, y: Axis| Panel {
+            title: "a panel".to_owned(),
+            x,
+            y,
+            tints: Vec::new(),
+            series: vec![curve("one", 1e-9), curve("two", 2e-9)],
+            note: None,
+        };
+        let linear = Axis::new("x", "nm", Scale::Linear, [0.0, 100.0]);
+        let log = Axis::new("x", "nm", Scale::Log, [1.0, 100.0]);
+        let plot = Plot {
+            caption: vec!["A caption that is too long for a narrow page, and is cut".to_owned()],
+            panels: vec![
+                panel(linear, Axis::from_zero("y", "cd", 2e-7)),
+                panel(log, Axis::decades("y", "cd", [1e-9, 2e-7])),
+            ],
+        };
+        for (size, font) in [
+            ([300.0, 120.0], 8.0),
+            ([640.0, 360.0], 12.0),
+            ([4000.0, 2000.0], 40.0),
+        ] {
+            let drawing = lay_out(&plot, Page { size, font });
+            for mark in drawing.groups.iter().flat_map(|group| &group.marks) {
+                let Shape::Text(text) = &mark.shape else {
+                    continue;
+                };
+                // An average letter is some 0.55 of a font's size wide.
+                let length = text.words.chars().count() as f64 * 0.55 * text.size;
+                let before = match text.anchor {
+                    Anchor::Start => 0.0,
+                    Anchor::Middle => length / 2.0,
+                    Anchor::End => length,
+                };
+                let axis = usize::from(text.upwards);
+                let begin = if text.upwards {
+                    text.at[axis] - length + before
+                } else {
+                    text.at[axis] - before
+                };
+                let fits = begin >= 0.0 && begin + length <= size[axis];
+                assert!(fits, "{size:?}: {} {begin} {length}", text.words);
+            }
+        }
+    }
+}

@@ -1,0 +1,284 @@
+//! The curves of a pixel as a plot: in the sensor's window, and over a band wide enough for all of
+//! the light that is shifted into or out of it.
+
+use super::{Probe, look};
+use crate::film::plot::{Axis, Color, Panel, Plot, Scale, Series, Stroke, Tint};
+use crate::render::View;
+use crate::scene::Scene;
+use crate::shade::Radiance;
+use crate::shot::Shot;
+use crate::spectrum::cie::{RANGE_NM, xyz_bar};
+use crate::spectrum::color_space::{RGB_FROM_XYZ, apply, encode};
+use crate::spectrum::{catmull_rom, planck};
+
+/// The band that is always shown, nm: that of the 1990 paper's curves, and on to 50 µm for the
+/// thermal light of what is at room temperature.
+const USUAL_BAND: [f64; 2] = [50.0, 50_000.0];
+/// Beyond these wavelengths (nm) no band reaches, so that there is an end to them: D of 10²² and
+/// its inverse still keep what is visible within.
+const WIDEST_BAND: [f64; 2] = [1e-20, 1e25];
+/// Spacing of wavelengths in ln λ: 0.6 nm at 600 nm.
+const SPACING: f64 = 1e-3;
+/// A black body has less than 1 % of its peak outside of these multiples of the peak's wavelength.
+const THERMAL: [f64; 2] = [0.328, 6.624];
+/// By how much a round wavelength may be missed, relative.
+const ROUNDING: f64 = 1e-9;
+
+/// The weaker part of the light is shown down to this share of its own peak …
+const DEPTH: f64 = 1e-3;
+/// … but no less, and no more, than these shares of all light's peak.
+const DEPTHS: [f64; 2] = [1e-6, 1e-16];
+
+const UNIT: &str = "W·m⁻²·sr⁻¹·nm⁻¹";
+// Three colours that no kind of colour vision confuses (Okabe & Ito 2008), the sum in grey.
+const SUM: Color = [110, 110, 110];
+const SURFACE: Color = [0, 92, 160];
+const THERMAL_LIGHT: Color = [200, 70, 0];
+
+/// The light of a pixel over a band wider than the sensor's window.
+#[derive(Debug, Clone, PartialEq)]
+pub struct WideBand {
+    /// The band, nm.
+    pub band_nm: [f64; 2],
+    /// Wavelengths in it, nm, in the camera's rest frame.
+    pub wavelengths: Vec<f64>,
+    /// Spectral radiance there.
+    pub light: Radiance,
+}
+
+/// The light of the pixel that `probe` tells of, with the same view, over a wide band.
+pub fn wide_band(shot: &Shot, probe: &Probe, view: &View<'_>, scene: &Scene) -> WideBand {
+    let band_nm = band(probe, shot.sensor.window, view, scene);
+    let count = ((band_nm[1] / band_nm[0]).ln() / SPACING).ceil() as u32;
+    let shader = view.shader_over(band_nm, count);
+    let light = match look(shot, probe.pixel, view, scene) {
+        Some((trees, _)) => shader.radiance(&trees, trees.roots[0]),
+        None => Radiance::new(count as usize),
+    };
+    WideBand {
+        band_nm,
+        wavelengths: shader.wavelengths_nm(),
+        light,
+    }
+}
+
+/// The usual band, widened to what the camera sees of each source's visible light and of the
+/// greater part of its thermal light.
+fn band(probe: &Probe, window_nm: [f64; 2], view: &View<'_>, scene: &Scene) -> [f64; 2] {
+    let mut band = USUAL_BAND;
+    let mut widen = |range_nm: [f64; 2]| {
+        band = [band[0].min(range_nm[0]), band[1].max(range_nm[1])];
+    };
+    widen(window_nm);
+    for node in &probe.chain {
+        let doppler = match (&node.hit, node.parent) {
+            _ if !view.called.doppler => 1.0,
+            (Some(hit), _) => hit.doppler,
+            (None, None) => node.doppler,
+            (None, Some(parent)) => {
+                let parent = probe.chain[parent as usize].hit.as_ref();
+                node.doppler * parent.map_or(1.0, |hit| hit.doppler)
+            }
+        };
+        widen(RANGE_NM.map(|nm| nm / doppler));
+        let name = node.hit.as_ref().map(|hit| &hit.material);
+        let material = scene.materials.iter().find(|m| Some(&m.name) == name);
+        let thermal = material.and_then(|m| m.thermal.as_ref());
+        if let Some(thermal) = thermal.filter(|_| view.called.thermal) {
+            let peak = planck::peak_nm(thermal.temperature_k) / doppler;
+            widen(THERMAL.map(|share| share * peak));
+        }
+    }
+    let [low, high] = band.map(|nm| nm.clamp(WIDEST_BAND[0], WIDEST_BAND[1]));
+    [rounded_down(low), rounded_up(high)]
+}
+
+/// 1 or 5 times the power of ten that is next below a wavelength, or it.
+fn rounded_down(nm: f64) -> f64 {
+    let decade = 10f64.powf((nm * (1.0 + ROUNDING)).log10().floor());
+    if nm * (1.0 + ROUNDING) >= 5.0 * decade {
+        5.0 * decade
+    } else {
+        decade
+    }
+}
+
+/// The same above.
+fn rounded_up(nm: f64) -> f64 {
+    let decade = 10f64.powf((nm * (1.0 - ROUNDING)).log10().floor());
+    if nm * (1.0 - ROUNDING) <= 5.0 * decade {
+        5.0 * decade
+    } else {
+        10.0 * decade
+    }
+}
+
+/// The plot of a pixel of a shot of this title.
+pub fn plot(title: &str, window_nm: [f64; 2], probe: &Probe, wide: &WideBand) -> Plot {
+    let [x, y] = probe.pixel;
+    let doppler = probe.hit.as_ref().map_or_else(
+        || "sees the background".to_owned(),
+        |hit| format!("D = {}", digits(hit.doppler)),
+    );
+    let title = format!("{title}, frame {}, pixel {x} {y}, {doppler}", probe.frame);
+    let window = [&probe.surface, &probe.thermal, &probe.radiance];
+    let sum = wide.light.total();
+    let wide_curves = [&wide.light.surface, &wide.light.thermal, &sum];
+    let label = "spectral radiance";
+    let panels = [
+        (
+            "In the sensor's window",
+            Axis::new("wavelength", "nm", Scale::Linear, window_nm),
+            Axis::from_zero(label, UNIT, peak(&probe.radiance)),
+            series(&finer(&probe.wavelengths), window.map(|curve| finer(curve))),
+        ),
+        (
+            "Wide band",
+            Axis::new("wavelength", "nm", Scale::Log, wide.band_nm),
+            Axis::decades(label, UNIT, depth(wide_curves)),
+            series(&wide.wavelengths, wide_curves.map(Vec::clone)),
+        ),
+    ];
+    let panel = |(title, x, y, series): (&str, Axis, Axis, Vec<Series>)| Panel {
+        title: title.to_owned(),
+        x,
+        y,
+        tints: visible(),
+        note: dark(&series).then(|| "no light in this band".to_owned()),
+        series,
+    };
+    Plot {
+        caption: vec![title],
+        panels: panels.into_iter().map(panel).collect(),
+    }
+}
+
+/// Seven digits, in the shorter way to write them.
+fn digits(value: f64) -> String {
+    if (1e-3..1e5).contains(&value) {
+        format!("{value:.6}")
+    } else {
+        format!("{value:.6e}")
+    }
+}
+
+/// The sum is wide and below, so that what makes it is seen on it.
+fn series(wavelengths: &[f64], [surface, thermal, sum]: [Vec<f64>; 3]) -> Vec<Series> {
+    let series = |name: &str, color, stroke, values: Vec<f64>| Series {
+        name: name.to_owned(),
+        color,
+        stroke,
+        points: wavelengths
+            .iter()
+            .zip(values)
+            .map(|(x, y)| [*x, y])
+            .collect(),
+    };
+    vec![
+        series("sum", SUM, Stroke::Solid(5.0), sum),
+        series("surface light", SURFACE, Stroke::Solid(1.8), surface),
+        series("thermal light", THERMAL_LIGHT, Stroke::Dashed(1.8), thermal),
+    ]
+}
+
+/// Values between those of the sensor's wavelengths, by the cubic that its sums are exact for.
+fn finer(values: &[f64]) -> Vec<f64> {
+    const PARTS: usize = 4;
+    let Some(last) = values.len().checked_sub(1) else {
+        return Vec::new();
+    };
+    let between = |i: usize| {
+        let (first, t) = (i / PARTS, (i % PARTS) as f64 / PARTS as f64);
+        if t == 0.0 {
+            return values[first];
+        }
+        let neighbors = [first.saturating_sub(1), first, first + 1, first + 2];
+        let taps = neighbors.into_iter().zip(catmull_rom(t));
+        let value: f64 = taps.map(|(j, tap)| tap * values[j.min(last)]).sum();
+        // The cubic overshoots where a curve falls to nothing.
+        value.clamp(0.0, f64::MAX)
+    };
+    (0..=last * PARTS).map(between).collect()
+}
+
+fn dark(series: &[Series]) -> bool {
+    series.iter().flat_map(|s| &s.points).all(|p| p[1] <= 0.0)
+}
+
+fn peak(curve: &[f64]) -> f64 {
+    curve.iter().copied().fold(0.0, f64::max)
+}
+
+/// Least and greatest of what a logarithmic axis is to show of some curves, the last their sum.
+fn depth(curves: [&Vec<f64>; 3]) -> [f64; 2] {
+    let largest = peak(curves[2]);
+    if largest <= 0.0 {
+        return [DEPTHS[0], 1.0];
+    }
+    let peaks = curves.map(|curve| peak(curve)).into_iter();
+    let weakest = peaks.filter(|peak| *peak > 0.0).fold(largest, f64::min);
+    [
+        (weakest * DEPTH).clamp(largest * DEPTHS[1], largest * DEPTHS[0]),
+        largest,
+    ]
+}
+
+/// The colours of the visible band, faint enough to draw on.
+fn visible() -> Vec<Tint> {
+    const STEP_NM: f64 = 2.5;
+    let count = ((RANGE_NM[1] - RANGE_NM[0]) / STEP_NM) as usize;
+    (0..count)
+        .map(|i| {
+            let start = RANGE_NM[0] + i as f64 * STEP_NM;
+            Tint {
+                range: [start, start + STEP_NM],
+                color: tint(start + STEP_NM / 2.0),
+            }
+        })
+        .collect()
+}
+
+/// The hue of a wavelength on white, fainter towards the ends of the visible.
+fn tint(nm: f64) -> Color {
+    const STRENGTH: f64 = 0.35;
+    const FULL_FROM: f64 = 0.25;
+    let xyz = xyz_bar(nm);
+    let rgb = apply(&RGB_FROM_XYZ, xyz).map(|v| v.max(0.0));
+    let brightest = rgb.iter().copied().fold(f64::MIN_POSITIVE, f64::max);
+    let share = STRENGTH * (xyz.iter().sum::<f64>() / FULL_FROM).min(1.0);
+    rgb.map(|v| {
+        let hue = encode(v / brightest);
+        (255.0 * (1.0 - share + share * hue)).round() as u8
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn bands_end_at_round_wavelengths() {
+        for (nm, below, above) in [
+            (50.0, 50.0, 50.0),
+            (29.0, 10.0, 50.0),
+            (63_000.0, 50_000.0, 100_000.0),
+            (100.0, 100.0, 100.0),
+            (1e-12, 1e-12, 1e-12),
+        ] {
+            let near = |a: f64, b: f64| (a / b - 1.0).abs() < 1e-12;
+            assert!(near(rounded_down(nm), below), "{nm}");
+            assert!(near(rounded_up(nm), above), "{nm}");
+        }
+    }
+
+    #[test]
+    fn the_visible_is_tinted_blue_green_and_red_and_fades_to_white() {
+        let [blue, green, red] = [450.0, 540.0, 630.0].map(tint);
+        assert!(blue[2] > blue[0] && blue[2] > blue[1], "{blue:?}");
+        assert!(green[1] > green[0] && green[1] > green[2], "{green:?}");
+        assert!(red[0] > red[1] && red[0] > red[2], "{red:?}");
+        for end in [360.0, 830.0].map(tint) {
+            assert!(end.iter().all(|v| *v > 253), "{end:?}");
+        }
+    }
+}
