@@ -109,13 +109,18 @@ impl Transform {
     }
 
     /// An event in the `to` frame.
+    #[inline]
     pub fn event(&self, e: Event) -> Event {
         let v = self.vector(FourVector::new(e.t, e.x) + self.before);
         Event::new(v.t, v.x) + self.after
     }
 
     /// A difference of events in the `to` frame.
+    #[inline]
     pub fn vector(&self, v: FourVector) -> FourVector {
+        if self.boost.is_identity() {
+            return v; // nor is there a turn
+        }
         let v = self.boost.vector(v);
         FourVector::new(v.t, self.turned(v.x))
     }

@@ -111,17 +111,19 @@ fn in_shadow(tracer: &Tracer<'_>, surface: &Place, light: &Light, incoming: &Inc
     let nearer = off_surface.dot(-incoming.in_surface) / spacetime.path_ratio(incoming.doppler);
     let distance = (incoming.distance - nearer).max(0.0);
     tracer.stage.worldlines().any(|worldline| {
-        let seen = if worldline == surface.worldline {
-            crate::relativity::Light {
+        let (origin, seen) = if worldline == surface.worldline {
+            let own = crate::relativity::Light {
                 direction: incoming.in_surface,
                 frequency_ratio: incoming.doppler,
-            }
+            };
+            (start.x, own)
         } else {
-            spacetime
+            let there = spacetime.link(worldline, surface.worldline).event(start);
+            let seen = spacetime
                 .link(worldline, light.worldline)
-                .light(incoming.in_lamp)
+                .light(incoming.in_lamp);
+            (there.x, seen)
         };
-        let origin = spacetime.link(worldline, surface.worldline).event(start).x;
         let ray = RestRay {
             origin,
             direction: -seen.direction,

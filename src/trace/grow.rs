@@ -75,8 +75,10 @@ pub(super) fn grow(
             share: bud.share,
             doppler: 1.0 / nearest.frequency_ratio,
         };
-        let (place, material) = tracer.add_surface(&nearest, Some(branch), doppler, trees);
-        if let Some(place) = place {
+        let material = tracer.material(&nearest);
+        let place = tracer.place(&nearest, material);
+        tracer.add_surface(&nearest, place.as_ref(), Some(branch), doppler, trees);
+        if let Some(place) = place.filter(|_| material.passes_light_on()) {
             let stem = Stem {
                 bound: bud.bound,
                 depth: bud.depth,

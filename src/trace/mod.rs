@@ -126,32 +126,45 @@ impl Tracer<'_> {
 
     /// Adds the tree of a camera ray that meets a surface; returns what was cut off.
     fn add_tree(&self, nearest: &Nearest, buds: &mut Buds, trees: &mut ShadeTrees) -> f64 {
+        let material = self.material(nearest);
+        let place = self.place(nearest, material);
         let doppler = 1.0 / nearest.frequency_ratio;
-        let (place, material) = self.add_surface(nearest, None, doppler, trees);
-        match place {
+        self.add_surface(nearest, place.as_ref(), None, doppler, trees);
+        match &place {
             Some(place) if material.passes_light_on() => {
-                grow::grow(self, &place, material, buds, trees)
+                grow::grow(self, place, material, buds, trees)
             }
             _ => 0.0,
         }
     }
 
-    /// Adds a node and its lamps. Where light is reflected or passed on, the surface is worked out.
+    fn material(&self, nearest: &Nearest) -> &Material {
+        let instance = &self.scene.geometry.instances[nearest.hit.instance as usize];
+        &self.scene.materials[instance.material as usize]
+    }
+
+    /// The surroundings of a hit, where its material reflects light or passes it on.
+    #[inline(always)]
+    fn place(&self, nearest: &Nearest, material: &Material) -> Option<Place> {
+        let lit = material.takes_lamps() && !self.scene.lights.is_empty();
+        (lit || material.passes_light_on())
+            .then(|| Place::new(self.scene, &nearest.hit, nearest.direction, nearest.time))
+    }
+
+    /// Adds the node of a hit, and the lamps on it.
     fn add_surface(
         &self,
         nearest: &Nearest,
+        place: Option<&Place>,
         branch: Option<Branch>,
         doppler: f64,
         trees: &mut ShadeTrees,
-    ) -> (Option<Place>, &Material) {
+    ) {
         let first_lamp = trees.lit.len() as u32;
         let hit = nearest.hit;
         let number = self.scene.geometry.instances[hit.instance as usize].material;
         let material = &self.scene.materials[number as usize];
-        let lamps = material.takes_lamps() && !self.scene.lights.is_empty();
-        let place = (lamps || material.passes_light_on())
-            .then(|| Place::new(self.scene, &hit, nearest.direction, nearest.time));
-        if let (Some(place), true) = (&place, lamps) {
+        if let (Some(place), true) = (place, material.takes_lamps()) {
             direct::add_lamps(self, place, material, &mut trees.lit);
         }
         trees.nodes.push(Node {
@@ -166,7 +179,6 @@ impl Tracer<'_> {
                 first_lamp,
             }),
         });
-        (place, material)
     }
 
     /// Adds the background that a camera ray sees.
