@@ -30,9 +30,29 @@
 //! - [`cli`]: arguments, messages, exit codes.
 //!
 //! # Precision
-//! Events, boosts, Doppler factors, ray parameters and triangles are f64. Only box tests are f32,
-//! on boxes widened by a bound of their rounding ([`trace`]). Spectra are authored in f64 and
-//! baked in f32 with a stated bound; sums are f64; a film holds f32.
+//! Where it is needed and only there. What each claim rests on is in the doc of the item named.
+//!
+//! **f64**: celerities, events, boosts, directions, Doppler factors, ray parameters, triangles and
+//! normals; spectra as authored, Planck's law, the weights of the sensor, sums over samples and over
+//! the nodes of a shade tree. Speeds are held as u = γβ, which keeps its digits at any Lorentz
+//! factor; β itself holds none beyond γ = 10⁸ ([`relativity::Celerity`]).
+//!
+//! **Compensated**, since their terms cancel: the cross products of motion and light (Kahan's
+//! difference of products by fused multiply-add: without it the direction of light along the motion
+//! is lost to γ²ε, with it to ε), relative celerities from the difference of two, and the edge
+//! functions of triangles where their sign is in doubt (so that meshes leak nothing). All other
+//! differences near the light cone are rewritten as sums ([`relativity::Boost`]).
+//!
+//! **f32**, each with its bound: boxes of the trees, in coordinates in which the tree fits the unit
+//! ball, widened by 2·10⁻⁶ of it (they decide what is tested, never what is hit); baked curves and
+//! the sums over them (6·10⁻⁸ a value, shapes scaled to a peak of 1, so that only what is 10⁻³⁰ of
+//! the peak is lost); colours of sky images; the film and its files (6·10⁻⁸; what is beyond is
+//! clamped and counted).
+//!
+//! **What limits the rest**: coordinates. A worldline's origin that is rounded in the lab is off by
+//! γε of its distance in its own frame, and a rounded direction by γε within 1/γ of the motion; so
+//! links between frames are composed from relative celerities and never by way of the lab
+//! ([`relativity::Transform`]). docs/hard-cases.md is the measured card of all this.
 
 pub mod cli;
 pub mod film;
