@@ -19,6 +19,7 @@ fn sees(text: &str, pixel: [u32; 2]) -> Probe {
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(folder.path().join("wall.obj"), WALL).unwrap();
     std::fs::write(folder.path().join("ball.gltf"), one_sided_ball()).unwrap();
+    std::fs::write(folder.path().join("ramp.csv"), "300,0.1\n900,0.7\n").unwrap();
     let assets = Path::new(env!("CARGO_MANIFEST_DIR")).join("assets");
     std::fs::copy(assets.join("sphere.obj"), folder.path().join("ball.obj")).unwrap();
     let path = folder.path().join("shot.toml");
@@ -223,4 +224,26 @@ fn a_headlight_shines_from_the_cameras_own_frame() {
     assert_eq!(moving, named);
     let left_behind = sees(&shot("[0, 0, 0.9]", "lab"), [4, 4]);
     assert!(left_behind.xyz[1] != at_rest.xyz[1]);
+}
+
+#[test]
+fn mirrors_and_glass_read_their_spectra_from_files_too() {
+    for term in ["mirror", "refraction"] {
+        let shot = |spectrum: &str| {
+            format!(
+                "[[model]]\nfile = \"wall.obj\"\nmaterial = \"m\"\ntranslate = [0, 0, -2]\n\
+                 [material.m]\n{term} = {{ weight = 0.9, spectrum = {spectrum} }}\n\
+                 [background]\nspectrum = 1.0\n[camera]\n"
+            )
+        };
+        let file = sees(&shot("{ file = \"ramp.csv\" }"), [4, 4]);
+        let points = sees(
+            &shot("{ points = [[300, 0.1], [900, 0.7]], tension = 0 }"),
+            [4, 4],
+        );
+        assert!(points.xyz[1] > 1.0, "{term}");
+        for (file, points) in file.radiance.iter().zip(&points.radiance) {
+            assert!((file - points).abs() < 1e-3, "{term}: {file} {points}");
+        }
+    }
 }

@@ -185,23 +185,8 @@ fn read_text(path: &Path) -> Result<String, String> {
 fn named_tables(shot: &Shot) -> Vec<(String, &SpectrumTable)> {
     let mut values: Vec<(String, &Option<SpectrumValue>)> = Vec::new();
     for (name, material) in &shot.material {
-        let mut add = |term: &str, value| values.push((format!("material.{name}.{term}"), value));
-        material
-            .diffuse
-            .iter()
-            .for_each(|t| add("diffuse.spectrum", &t.spectrum));
-        material
-            .highlight
-            .iter()
-            .for_each(|t| add("highlight.spectrum", &t.spectrum));
-        material
-            .emission
-            .iter()
-            .for_each(|t| add("emission.spectrum", &t.spectrum));
-        material
-            .thermal
-            .iter()
-            .for_each(|t| add("thermal.emissivity", &t.emissivity));
+        let terms = material.spectra();
+        values.extend(terms.map(|(term, value)| (format!("material.{name}.{term}"), value)));
     }
     for (i, light) in shot.light.iter().enumerate() {
         values.push((format!("light[{i}].spectrum"), &light.spectrum));

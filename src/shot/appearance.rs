@@ -27,6 +27,40 @@ pub struct Material {
     pub thermal: Option<Thermal>,
 }
 
+impl Material {
+    /// The spectra of its terms, each with its key below the material's; all that there are, or
+    /// a file that one names would not be read.
+    pub fn spectra(&self) -> impl Iterator<Item = (&'static str, &Option<SpectrumValue>)> {
+        let Self {
+            diffuse,
+            highlight,
+            mirror,
+            refraction,
+            emission,
+            thermal,
+        } = self;
+        [
+            ("diffuse.spectrum", diffuse.as_ref().map(|t| &t.spectrum)),
+            (
+                "highlight.spectrum",
+                highlight.as_ref().map(|t| &t.spectrum),
+            ),
+            ("mirror.spectrum", mirror.as_ref().map(|t| &t.spectrum)),
+            (
+                "refraction.spectrum",
+                refraction.as_ref().map(|t| &t.spectrum),
+            ),
+            ("emission.spectrum", emission.as_ref().map(|t| &t.spectrum)),
+            (
+                "thermal.emissivity",
+                thermal.as_ref().map(|t| &t.emissivity),
+            ),
+        ]
+        .into_iter()
+        .filter_map(|(key, value)| Some((key, value?)))
+    }
+}
+
 /// Lambertian reflection: L = ρE/π with the reflectance ρ = weight × spectrum.
 #[derive(Debug, Clone, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
