@@ -22,6 +22,8 @@ mod eye;
 mod files;
 #[path = "hard_cases/geometry.rs"]
 mod geometry;
+#[path = "hard_cases/invariance.rs"]
+mod invariance;
 #[path = "hard_cases/lamps.rs"]
 mod lamps;
 #[path = "hard_cases/light.rs"]
@@ -51,6 +53,7 @@ mod windows;
 fn sections() -> Vec<(&'static str, &'static [card::Case])> {
     vec![
         ("A. Boosts", boosts::CASES),
+        ("A. The whole scene moved", invariance::CASES),
         ("B. Doppler factor and aberration", doppler::CASES),
         ("C. Radiometry and spectra", light::CASES),
         ("C. Windows of the sensor", windows::CASES),
