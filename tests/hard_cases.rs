@@ -44,6 +44,8 @@ mod pipeline;
 mod poincare;
 #[path = "hard_cases/scene.rs"]
 mod scene;
+#[path = "hard_cases/swept.rs"]
+mod swept;
 #[path = "hard_cases/visibility.rs"]
 mod visibility;
 #[path = "hard_cases/windows.rs"]

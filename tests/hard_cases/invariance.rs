@@ -82,7 +82,7 @@ fn shot(parts: &[&str]) -> String {
 
 /// What of a shot's picture a motion of the whole scene changes, at each Lorentz factor.
 fn moved(card: &mut Card, what: &str, text: &str) -> Film {
-    let set = Set::with(&[CLOUDS], text);
+    let set = Set::new(text);
     let scene = set.scene();
     let still = set.film_of(&scene);
     for (seed, lorentz_factor) in [(11, 1.2), (12, 10.0), (13, 1e3)] {
@@ -130,7 +130,7 @@ fn doppler_apart(one: &Film, other: &Film) -> f64 {
 
 /// That something is there to be moved: so many pixels are others by a hundredth without it.
 fn counts(card: &mut Card, what: &str, with: &Film, without: &str, least: usize) {
-    let without = Set::with(&[CLOUDS], without).film();
+    let without = Set::new(without).film();
     let found = light_apart(with, &without)
         .filter(|off| *off > 0.01)
         .count();
@@ -288,14 +288,6 @@ mirror = { weight = 0.9, spectrum = 1.0 }
 
 /// What lies behind, on a worldline of its own.
 const BEHIND: &str = "[background]\nworldline = \"three\"\n";
-
-/// An image of 4 × 3 texels as a Radiance file, in letters: three of mantissa and an exponent of
-/// 127 make m/512.
-const CLOUDS: (&str, &str) = (
-    "sky.hdr",
-    "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 3 +X 4\n\
-     abz\u{7f}zAa\u{7f}0Zz\u{7f}zzz\u{7f}9aZ\u{7f}z00\u{7f}Aa9\u{7f}ZZ0\u{7f}azA\u{7f}0z9\u{7f}99z\u{7f}a0Z\u{7f}",
-);
 
 cases! {
     fn a11_mirrors_look_alike_from_any_frame(card) {
