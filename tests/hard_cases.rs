@@ -22,6 +22,8 @@ mod eye;
 mod files;
 #[path = "hard_cases/geometry.rs"]
 mod geometry;
+#[path = "hard_cases/invariance.rs"]
+mod invariance;
 #[path = "hard_cases/lamps.rs"]
 mod lamps;
 #[path = "hard_cases/light.rs"]
@@ -42,6 +44,8 @@ mod pipeline;
 mod poincare;
 #[path = "hard_cases/scene.rs"]
 mod scene;
+#[path = "hard_cases/swept.rs"]
+mod swept;
 #[path = "hard_cases/visibility.rs"]
 mod visibility;
 #[path = "hard_cases/windows.rs"]
@@ -51,6 +55,7 @@ mod windows;
 fn sections() -> Vec<(&'static str, &'static [card::Case])> {
     vec![
         ("A. Boosts", boosts::CASES),
+        ("A. The whole scene moved", invariance::CASES),
         ("B. Doppler factor and aberration", doppler::CASES),
         ("C. Radiometry and spectra", light::CASES),
         ("C. Windows of the sensor", windows::CASES),

@@ -6,7 +6,7 @@
 //! f64, to the near side of the tree's bounding sphere, and only box tests are f32. Triangles are
 //! tested in f64, so the crossing is the event.
 
-use super::ball::{Ball, near_side};
+use super::ball::{Ball, brought_near, is_near, near_side};
 use super::bvh::{Bvh, TreeRay};
 use super::mesh_tree::{MeshTree, starting_point};
 use crate::scene::{Geometry, Instance, Mesh};
@@ -180,6 +180,16 @@ impl Crowd {
     }
 
     fn nearest(&self, ray: &RestRay, reach: f64) -> Option<BodyHit> {
+        let (way, ray) = self.nearby(ray)?;
+        let hit = self.nearest_from(&ray, reach - way)?;
+        Some(BodyHit {
+            t: way + hit.t,
+            ..hit
+        })
+    }
+
+    #[inline(always)]
+    fn nearest_from(&self, ray: &RestRay, reach: f64) -> Option<BodyHit> {
         let (start, unit_ray) = self.entering(ray, reach)?;
         let mut best: Option<BodyHit> = None;
         self.tree.nearest(&unit_ray, |place| {
@@ -198,19 +208,42 @@ impl Crowd {
     }
 
     fn nearest_of_all(&self, ray: &RestRay, reach: f64) -> Option<BodyHit> {
-        self.members.iter().fold(None, |best, member| {
+        let (way, ray) = self.nearby(ray)?;
+        let hit = self.members.iter().fold(None, |best, member| {
             let mesh = &self.meshes[member.mesh as usize];
-            mesh.nearest_of_all(member, ray, reach, best).or(best)
+            mesh.nearest_of_all(member, &ray, reach - way, best)
+                .or(best)
+        })?;
+        Some(BodyHit {
+            t: way + hit.t,
+            ..hit
         })
     }
 
     fn blocks(&self, ray: &RestRay, reach: f64) -> bool {
-        self.entering(ray, reach).is_some_and(|(_, unit_ray)| {
-            self.tree.any(&unit_ray, |place| {
-                let member = &self.members[place];
-                self.meshes[member.mesh as usize].blocks(member, ray, reach)
+        self.nearby(ray).is_some_and(|(way, ray)| {
+            let reach = reach - way;
+            self.entering(&ray, reach).is_some_and(|(_, unit_ray)| {
+                self.tree.any(&unit_ray, |place| {
+                    let member = &self.members[place];
+                    self.meshes[member.mesh as usize].blocks(member, &ray, reach)
+                })
             })
         })
+    }
+
+    /// The ray itself, or, where its start is so far off that f64 would lose the bodies on the way,
+    /// the ray from nearer by, and how much nearer.
+    #[inline(always)]
+    fn nearby(&self, ray: &RestRay) -> Option<(f64, RestRay)> {
+        let Ball { center, radius } = self.ball;
+        let from_center = ray.origin - center;
+        if is_near(from_center, ray.direction, radius) {
+            return Some((0.0, *ray));
+        }
+        let (way, from_center) = brought_near(from_center, ray.direction, radius)?;
+        let origin = center + from_center;
+        Some((way, RestRay { origin, ..*ray }))
     }
 
     /// The ray in unit-ball coordinates from where it comes near the ball, and how far that is.

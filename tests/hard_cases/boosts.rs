@@ -8,7 +8,7 @@ use crate::pictures::{
     Picture, bits, changed, difference, far_wall, glow, hits, pixels_of_worldlines,
 };
 use crate::poincare::Poincare;
-use glam::{DQuat, DVec3};
+use glam::DVec3;
 use restframe::film::Film;
 use restframe::relativity::{
     Boost, Celerity, CelerityError, Event, FourVector, Transform, Worldline,
@@ -36,28 +36,13 @@ fn through_origin(celerity: Celerity) -> Worldline {
     }
 }
 
-/// Rotation, boost and translation by whole eighths, at random.
-fn random_motion(seed: u64, lorentz_factor: f64) -> Poincare {
-    let mut random = Random(seed);
-    let eighths = |v: f64| (v * 64.0).round() / 8.0;
-    let [axis, direction, place] = [(); 3].map(|()| random.vector());
-    Poincare {
-        turn: DQuat::from_xyzw(axis.x, axis.y, axis.z, random.next()).normalize(),
-        celerity: direction.normalize() * ((lorentz_factor - 1.0) * (lorentz_factor + 1.0)).sqrt(),
-        shift: Event::new(
-            eighths(random.next()),
-            DVec3::from(place.to_array().map(eighths)),
-        ),
-    }
-}
-
 /// What of a picture a motion of the whole scene changes, at each Lorentz factor.
 fn moved_pictures(card: &mut Card, what: &str, picture: &Picture) {
     let set = picture.set();
     let scene = set.scene();
     let still = set.film_of(&scene);
     for (seed, lorentz_factor) in [(1, 1.2), (2, 10.0), (3, 1e3)] {
-        let moved = set.film_of(&random_motion(seed, lorentz_factor).scene(&scene));
+        let moved = set.film_of(&Poincare::at_random(seed, lorentz_factor).scene(&scene));
         card.at_most(
             &format!("{what}, γ = {lorentz_factor}"),
             difference(&still, &moved),

@@ -1,7 +1,9 @@
 //! G. The program as a whole. G3 waits for spectral EXR files, which are not written yet.
 
+use crate::card::Card;
 use crate::files::Files;
 use crate::scene::Set;
+use crate::swept::{GLARE, INSIDE, SCENES};
 use rayon::ThreadPoolBuilder;
 use rayon::prelude::*;
 use restframe::film::Film;
@@ -9,145 +11,6 @@ use restframe::render::View;
 use restframe::shade::ShadeScratch;
 use restframe::spectrum::{Spectrum, cie, planck};
 use restframe::trace::{Samples, Scratch, ShadeTrees, Stage};
-
-/// Scenes to be swept over speeds: name and shot, in which VELOCITY stands for the velocity of what
-/// moves. Each is rendered as it stands; whoever adds an effect adds a scene.
-const SCENES: &[(&str, &str)] = &[
-    ("inside a moving box", INSIDE),
-    ("a ball before a moving sky", SKY),
-    ("a moving camera", CAMERA),
-];
-
-/// The camera is in the middle of a box, so that light comes from all sides, under every Doppler
-/// factor from e^-η to e^η. The box has every term that a surface has; lamps ride on it, on
-/// another worldline, and rest; a ball at rest shadows them.
-const INSIDE: &str = r#"
-[image]
-size = [24, 16]
-samples = 2
-[worldline.moving]
-velocity = VELOCITY
-[worldline.lamp]
-velocity = [0.3, -0.2, 0.4]
-[[model]]
-file = "box.obj"
-worldline = "moving"
-scale = 3
-material = "everything"
-[[model]]
-file = "ball.obj"
-scale = 0.3
-translate = [0.8, 0.1, -1.2]
-material = "red"
-[material.everything]
-diffuse = { weight = 0.8, spectrum = "D65-like" }
-highlight = { weight = 0.2, spectrum = { rgb = [0.2, 0.5, 0.9] }, exponent = 40 }
-emission = { scale = 0.01, spectrum = { gaussian = { center = 589, width = 5 } } }
-thermal = { temperature = 1200, emissivity = { points = [[400, 0.9], [600, 0.2], [900, 0.6]] } }
-[material.red]
-diffuse = { spectrum = { rgb = [0.8, 0.1, 0.1] } }
-[spectrum.D65-like]
-points = [[380, 0.5], [480, 0.9], [560, 0.8], [700, 0.6]]
-[[light]]
-kind = "point"
-worldline = "lamp"
-position = [0.4, 0.6, -0.5]
-intensity = 100
-[[light]]
-kind = "spot"
-worldline = "moving"
-position = [-1, 1, 1]
-direction = [1, -1, -1]
-intensity = 100
-spectrum = { blackbody = 3000 }
-[[light]]
-kind = "point"
-position = [0.9, 0.3, -0.2]
-scale = 1
-spectrum = { gaussian = { center = 500, width = 3 } }
-[camera]
-hfov = 110
-[sensor]
-exposure = 0
-"#;
-
-/// A ball that passes four metres away when the light sets out that is seen, over a floor at rest,
-/// before a sky that moves with it and has a spectrum.
-const SKY: &str = r#"
-[image]
-size = [24, 16]
-samples = 2
-[worldline.moving]
-velocity = VELOCITY
-passes = [0, 0, -4]
-at = -4
-[[model]]
-file = "ball.obj"
-worldline = "moving"
-material = "hot"
-[[model]]
-file = "wall.obj"
-scale = 5
-rotate = [-90, 0, 0]
-translate = [0, -1.5, -4]
-material = "grey"
-[material.hot]
-diffuse = { weight = 0.5, spectrum = { rgb = [0.9, 0.6, 0.2] } }
-thermal = { temperature = 3000 }
-[material.grey]
-diffuse = { spectrum = 0.5 }
-highlight = { weight = 0.3, spectrum = 1.0, exponent = 20 }
-[background]
-worldline = "moving"
-spectrum = { points = [[400, 0.01], [500, 0.05], [650, 0.002]], beyond = "zero" }
-[[light]]
-kind = "point"
-worldline = "moving"
-position = [0, 3, 1]
-intensity = 1000
-[[light]]
-kind = "sun"
-direction = [0.2, -1, -0.3]
-intensity = 1000
-[camera]
-hfov = 70
-[sensor]
-exposure = 0
-"#;
-
-/// What moves is who looks.
-const CAMERA: &str = r#"
-[image]
-size = [24, 16]
-samples = 2
-[worldline.moving]
-velocity = VELOCITY
-[[model]]
-file = "box.obj"
-scale = 4
-material = "painted"
-[[model]]
-file = "wall.obj"
-translate = [0.5, 0.3, -2]
-material = "glowing"
-[material.painted]
-diffuse = { spectrum = { rgb = [0.3, 0.8, 0.3] } }
-emission = { scale = 1e-4, spectrum = "A" }
-[material.glowing]
-thermal = { temperature = 2000, curve = "peak", strength = 0.5 }
-[[light]]
-kind = "point"
-position = [1, 2, 1]
-intensity = 500
-[background]
-worldline = "lab"
-spectrum = 0.01
-[camera]
-worldline = "moving"
-hfov = 110
-[sensor]
-exposure = 0
-"#;
 
 /// G4's Lorentz factors, as they are written in a shot.
 const LORENTZ_FACTORS: [&str; 6] = ["1", "1.000000000001", "2", "10", "1e3", "1e6"];
@@ -168,8 +31,8 @@ fn at_speed(scene: &str, lorentz_factor: &str, direction: &str) -> Set {
     Set::new(&scene.replace("VELOCITY", &velocity(lorentz_factor, direction)))
 }
 
-/// What is wrong with a film, its layers and its files: nothing, if it is empty. In G4's scenes
-/// no light is beyond f32, so none may be clamped; C12 holds what happens to light that is.
+/// What is wrong with a film, its layers and its files: nothing, if it is empty. Light may be beyond
+/// f32 on the film; in files it is clamped, and counted where that was so and only there.
 fn faults(film: &Film) -> Vec<&'static str> {
     let values = film.xyz.as_flattened();
     let files = Files::of(film);
@@ -188,15 +51,15 @@ fn faults(film: &Film) -> Vec<&'static str> {
             .all(|(v, w)| *w < 0.0 || (v.is_finite() && sane(*v)))
     };
     [
-        (
-            "NaN or infinity on the film",
-            values.iter().all(|v| v.is_finite()),
-        ),
+        ("NaN on the film", !values.iter().any(|v| v.is_nan())),
         (
             "negative XYZ",
             values.iter().all(|v| v.is_nan() || v.is_sign_positive()),
         ),
-        ("values clamped", files.saturated == 0),
+        (
+            "clamped light is not what was counted",
+            (files.saturated > 0) == (is_beyond(values) || is_clamped(&files)),
+        ),
         (
             "a value not finite in the EXR",
             files.exr_is_finite_and_true(),
@@ -209,6 +72,76 @@ fn faults(film: &Film) -> Vec<&'static str> {
     .into_iter()
     .filter_map(|(fault, holds)| (!holds).then_some(fault))
     .collect()
+}
+
+/// A ball that comes on, and passes through the lab's origin.
+const COMING_ON: &str = r#"
+[image]
+size = [25, 17]
+samples = 1
+[worldline.moving]
+velocity = VELOCITY
+[[model]]
+file = "ball.obj"
+worldline = "moving"
+material = "warm"
+[material.warm]
+thermal = { temperature = 300 }
+[camera]
+position = [0, 0, 6]
+hfov = HFOV
+[sensor]
+exposure = 0
+"#;
+
+/// Looks for faults in every scene at these Lorentz factors and motions, each with their names.
+fn swept(
+    card: &mut Card,
+    (factors, factor_names): (&[&str], &str),
+    (motions, motion_names): (&[(&str, &str)], &str),
+) {
+    for (name, text) in SCENES {
+        let runs: Vec<(&str, &str, &str)> = factors
+            .iter()
+            .flat_map(|factor| {
+                motions
+                    .iter()
+                    .map(|(motion, direction)| (*factor, *motion, *direction))
+            })
+            .collect();
+        let faults: Vec<String> = runs
+            .par_iter()
+            .map(|(factor, motion, direction)| {
+                let faults = faults(&at_speed(text, factor, direction).film());
+                if faults.is_empty() {
+                    String::new()
+                } else {
+                    format!(" γ = {factor} {motion}: {}", faults.join(", "))
+                }
+            })
+            .collect();
+        card.holds(
+            &format!(
+                "{name}: at {factor_names}; {motion_names}{}",
+                faults.concat()
+            ),
+            faults.concat().is_empty(),
+        );
+    }
+}
+
+/// Whether a film has light beyond f32.
+fn is_beyond(values: &[f32]) -> bool {
+    values.iter().any(|v| v.is_infinite())
+}
+
+/// Whether a file has the greatest number of f32, which no light of these scenes happens to be.
+fn is_clamped(files: &Files) -> bool {
+    files
+        .linear
+        .as_flattened()
+        .iter()
+        .any(|v| v.abs() == f32::MAX)
 }
 
 /// XYZ that a curve has under a Doppler factor, D⁵ S(Dλ), at four steps a nm.
@@ -382,34 +315,58 @@ cases! {
 
     /// See [`faults`] for what is looked for: in the film, its layers, the picture and its files.
     fn g4_no_speed_brings_a_nan_an_infinity_or_less_than_nothing(card) {
-        for (name, text) in SCENES {
-            let runs: Vec<(&str, &str, &str)> = LORENTZ_FACTORS
-                .iter()
-                .flat_map(|factor| {
-                    MOTIONS
-                        .iter()
-                        .map(|(motion, direction)| (*factor, *motion, *direction))
-                })
-                .collect();
-            let faults: Vec<String> = runs
-                .par_iter()
-                .map(|(factor, motion, direction)| {
-                    let faults = faults(&at_speed(text, factor, direction).film());
-                    if faults.is_empty() {
-                        String::new()
-                    } else {
-                        format!(" γ = {factor} {motion}: {}", faults.join(", "))
-                    }
-                })
-                .collect();
-            card.holds(
-                &format!(
-                    "{name}: at γ 1, 1 + 1e-12, 2, 10, 1e3, 1e6; towards, away, across, oblique{}",
-                    faults.concat()
-                ),
-                faults.concat().is_empty(),
-            );
+        swept(
+            card,
+            (&LORENTZ_FACTORS, "γ 1, 1 + 1e-12, 2, 10, 1e3, 1e6"),
+            (&MOTIONS, "towards, away, across, oblique"),
+        );
+        let saturated = |factor: &str, direction: &str| {
+            Files::of(&at_speed(GLARE, factor, direction).film()).saturated
+        };
+        card.holds(
+            "light beyond f32 is counted at γ = 1e6 towards, and none at 1e3 or away",
+            saturated("1e6", MOTIONS[0].1) > 0
+                && saturated("1e3", MOTIONS[0].1) == 0
+                && saturated("1e6", MOTIONS[1].1) == 0,
+        );
+    }
+
+    /// γ = 10⁷⁴ is near the greatest that a shot may have. Bodies that come on along an axis are met,
+    /// for rounding keeps off the axes across; others are lost where rounding exceeds their size.
+    fn g4_nor_do_the_greatest_lorentz_factors(card) {
+        let motions = [MOTIONS[0], MOTIONS[3]];
+        swept(card, (&["1e74"], "γ 1e74"), (&motions, "towards, oblique"));
+    }
+
+    /// A ball passes the lab's origin at the exposure, r = 6 before the camera, which sees it
+    /// r/(1 − β) = rγ(γ + u) away, and at this field of view always alike. In the ball's frame the
+    /// way is rγ less its radius. Bound: eight roundings, and how far facets are within the sphere.
+    fn g4_a_ball_comes_on_alike_at_any_lorentz_factor(card) {
+        const FACETS: f64 = 0.01;
+        let ball = |factor: &str, direction: &str| {
+            let gamma: f64 = factor.parse().unwrap();
+            let hfov = (4.0 / 12.0 / gamma / gamma).to_degrees();
+            at_speed(&COMING_ON.replace("HFOV", &format!("{hfov:e}")), factor, direction)
+        };
+        let film = ball("1e3", "[0, 0, 1]").film();
+        let seen = film.layers.worldline.as_ref().unwrap();
+        let count = seen.iter().filter(|line| **line > 0.0).count();
+        card.holds("at 1e3 it fills 110 to 130 of 425 pixels", (110..130).contains(&count));
+        for factor in ["1e10", "1e15", "1e16", "1e20", "1e25", "1e40", "1e74"] {
+            let set = ball(factor, "[0, 0, 1]");
+            let other = set.film().layers.worldline;
+            card.holds(&format!("the same pixels at {factor}"), other == film.layers.worldline);
+            let hit = set.probe([12, 8]).hit;
+            let gamma: f64 = factor.parse().unwrap();
+            let (doppler, distance) = hit.map_or((0.0, 0.0), |hit| (hit.doppler, hit.distance));
+            card.relative("D in the middle", 2.0 * gamma, doppler, 8.0 * f64::EPSILON);
+            let exact = (6.0 * gamma - 1.0) * (2.0 * gamma);
+            let bound = 8.0 * f64::EPSILON + FACETS / (6.0 * gamma);
+            card.relative("distance, m", exact, distance, bound);
         }
+        let oblique = ["1e25", "1e74"].map(|factor| ball(factor, "[0.6, -0.3, 0.7]").film());
+        let is_sky = |film: &Film| film.layers.worldline.iter().flatten().all(|line| *line < 0.0);
+        card.holds("obliquely at 1e25 and 1e74 it is lost", oblique.iter().all(is_sky));
     }
 
     /// The ray meets the motion head-on, from behind or at a right angle: D = γ ± √((γ − 1)(γ + 1)),

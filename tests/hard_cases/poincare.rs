@@ -14,6 +14,7 @@
 //!
 //! The boosts are written out here and are not those of `relativity`, whose work the pictures test.
 
+use crate::numbers::Random;
 use glam::{DAffine3, DMat3, DQuat, DVec3};
 use restframe::relativity::{Celerity, Event, Worldline};
 use restframe::scene::{Background, Camera, Geometry, Light, LightShape, Scene};
@@ -31,6 +32,23 @@ pub(crate) struct Poincare {
 }
 
 impl Poincare {
+    /// A boost of this Lorentz factor in any direction, any turn, and a translation by whole
+    /// eighths of up to 8 m.
+    pub(crate) fn at_random(seed: u64, lorentz_factor: f64) -> Self {
+        let mut random = Random(seed);
+        let eighths = |v: f64| (v * 64.0).round() / 8.0;
+        let [axis, direction, place] = [(); 3].map(|()| random.vector());
+        let speed = ((lorentz_factor - 1.0) * (lorentz_factor + 1.0)).sqrt();
+        Self {
+            turn: DQuat::from_xyzw(axis.x, axis.y, axis.z, random.next()).normalize(),
+            celerity: direction.normalize() * speed,
+            shift: Event::new(
+                eighths(random.next()),
+                DVec3::from(place.to_array().map(eighths)),
+            ),
+        }
+    }
+
     /// The scene with every worldline moved, and what stands on it turned along.
     pub(crate) fn scene(&self, scene: &Scene) -> Scene {
         let moved: Vec<(Worldline, DMat3)> =

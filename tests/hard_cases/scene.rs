@@ -7,8 +7,14 @@ use restframe::render::{Options, View, render};
 use restframe::scene::Scene;
 use restframe::trace::Stage;
 
+/// A sky of 4 × 3 texels as a Radiance file, in letters: three of mantissa and an exponent of 127
+/// make m/512.
+const CLOUDS: &str = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 3 +X 4\n\
+    abz\u{7f}zAa\u{7f}0Zz\u{7f}zzz\u{7f}9aZ\u{7f}z00\u{7f}Aa9\u{7f}ZZ0\u{7f}azA\u{7f}0z9\u{7f}99z\u{7f}a0Z\u{7f}";
+
 /// A shot read from text. `wall.obj` is the square |x|, |y| ≤ 1 at z = 0 facing +z, `box.obj` the
-/// cube of half-edge 1, `ball.obj` a unit sphere of flat facets with vertex normals.
+/// cube of half-edge 1, `ball.obj` a unit sphere of flat facets with vertex normals, `sky.hdr` an
+/// image of the whole sky.
 pub(crate) struct Set {
     pub(crate) prepared: Prepared,
     _folder: tempfile::TempDir,
@@ -30,6 +36,7 @@ impl Set {
             "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nf 1 2 3\nf 1 3 4\n",
         );
         write("box.obj", &cube());
+        write("sky.hdr", CLOUDS);
         write(
             "ball.obj",
             &std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/assets/sphere.obj"))
