@@ -2,7 +2,7 @@
 
 use super::model::{self, Mesh, Model};
 use super::sky::{SkyImage, Star, Stars, random_stars};
-use crate::shot::{self, Mistake, Mistakes, Shot, SpectrumTable, SpectrumValue};
+use crate::shot::{self, Material, Mistake, Mistakes, Shot, SpectrumTable, SpectrumValue};
 use crate::spectrum::Sampled;
 use std::collections::HashMap;
 use std::fs;
@@ -185,23 +185,36 @@ fn read_text(path: &Path) -> Result<String, String> {
 fn named_tables(shot: &Shot) -> Vec<(String, &SpectrumTable)> {
     let mut values: Vec<(String, &Option<SpectrumValue>)> = Vec::new();
     for (name, material) in &shot.material {
-        let mut add = |term: &str, value| values.push((format!("material.{name}.{term}"), value));
-        material
-            .diffuse
-            .iter()
-            .for_each(|t| add("diffuse.spectrum", &t.spectrum));
-        material
-            .highlight
-            .iter()
-            .for_each(|t| add("highlight.spectrum", &t.spectrum));
-        material
-            .emission
-            .iter()
-            .for_each(|t| add("emission.spectrum", &t.spectrum));
-        material
-            .thermal
-            .iter()
-            .for_each(|t| add("thermal.emissivity", &t.emissivity));
+        // All terms by name, so that none can be forgotten.
+        let Material {
+            diffuse,
+            highlight,
+            mirror,
+            refraction,
+            emission,
+            thermal,
+        } = material;
+        let terms = [
+            ("diffuse.spectrum", diffuse.as_ref().map(|t| &t.spectrum)),
+            (
+                "highlight.spectrum",
+                highlight.as_ref().map(|t| &t.spectrum),
+            ),
+            ("mirror.spectrum", mirror.as_ref().map(|t| &t.spectrum)),
+            (
+                "refraction.spectrum",
+                refraction.as_ref().map(|t| &t.spectrum),
+            ),
+            ("emission.spectrum", emission.as_ref().map(|t| &t.spectrum)),
+            (
+                "thermal.emissivity",
+                thermal.as_ref().map(|t| &t.emissivity),
+            ),
+        ];
+        let given = terms
+            .into_iter()
+            .filter_map(|(key, value)| Some((key, value?)));
+        values.extend(given.map(|(key, value)| (format!("material.{name}.{key}"), value)));
     }
     for (i, light) in shot.light.iter().enumerate() {
         values.push((format!("light[{i}].spectrum"), &light.spectrum));
