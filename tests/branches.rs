@@ -22,6 +22,7 @@ fn sees(text: &str, pixel: [u32; 2]) -> Probe {
     std::fs::write(folder.path().join("ramp.csv"), "300,0.1\n900,0.7\n").unwrap();
     let assets = Path::new(env!("CARGO_MANIFEST_DIR")).join("assets");
     std::fs::copy(assets.join("sphere.obj"), folder.path().join("ball.obj")).unwrap();
+    std::fs::write(folder.path().join("paint.csv"), "400,0\n500,0.5\n600,1\n").unwrap();
     let path = folder.path().join("shot.toml");
     std::fs::write(
         &path,
@@ -179,6 +180,20 @@ fn a_mirror_of_one_value_is_the_same_whether_it_is_called_constant_or_not() {
     assert!(top > 1.0);
     for (one, other) in constant.xyz.iter().zip(&curve.xyz) {
         assert!((one - other).abs() < 1e-6 * top, "{constant:?} {curve:?}");
+    }
+}
+
+#[test]
+fn mirrors_and_glass_read_files_that_are_named_in_place() {
+    let wall = "[[model]]\nfile = \"wall.obj\"\nmaterial = \"wall\"\ntranslate = [0, 0, -2]\n\
+         [material.wall]\nTERM = { spectrum = SPECTRUM }\n[background]\nspectrum = 1.0\n[camera]\n";
+    for term in ["mirror", "refraction"] {
+        let shot = |spectrum| wall.replace("TERM", term).replace("SPECTRUM", spectrum);
+        let in_place = sees(&shot("{ file = \"paint.csv\" }"), [4, 4]);
+        let named = "[spectrum.paint]\nfile = \"paint.csv\"\n";
+        let by_name = sees(&format!("{named}{}", shot("\"paint\"")), [4, 4]);
+        assert!(by_name.xyz[1] > 1.0, "{term}: {by_name:?}");
+        assert_eq!(in_place, by_name, "{term}");
     }
 }
 

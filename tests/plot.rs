@@ -346,4 +346,9 @@ fn a_plot_that_cannot_be_written_is_a_failure_with_a_reason() {
     assert_eq!(status, 2);
     let left: Vec<_> = fs::read_dir(desk.0.path()).unwrap().collect();
     assert_eq!(left.len(), 2, "{left:?}");
+    let shot = fs::read(desk.0.path().join("ball.toml")).unwrap();
+    let (status, _, stderr) = desk.call("probe ball.toml --pixel 1 1 --plot ./ball.toml");
+    assert_eq!(status, 2, "{stderr}");
+    assert!(stderr.contains("the plot would take the place of the shot"));
+    assert!(fs::read(desk.0.path().join("ball.toml")).unwrap() == shot);
 }

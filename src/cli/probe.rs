@@ -8,6 +8,7 @@ use crate::render::{View, motion_mistake, rows, spliced};
 use crate::scene::Scene;
 use crate::shot::SensorColor;
 use crate::trace::Stage;
+use std::path::Path;
 
 /// The page of a plot: two panels side by side, that fit into a page of text.
 const PAGE: Page = Page {
@@ -17,6 +18,15 @@ const PAGE: Page = Page {
 
 /// Answers for the centre of one pixel, under the effects of the splice that it lies in.
 pub(super) fn run(arguments: &ProbeArguments) -> Result<(), Failed> {
+    if arguments
+        .plot
+        .as_deref()
+        .is_some_and(|file| same(file, &arguments.shot))
+    {
+        return Err(misused(
+            "the plot would take the place of the shot: give --plot another file",
+        ));
+    }
     let prepared = Prepared::read(&arguments.shot).map_err(|m| mistaken(&m))?;
     let shot = &prepared.shot;
     let (frame, pixel) = (arguments.frame, [arguments.pixel[0], arguments.pixel[1]]);
@@ -58,6 +68,11 @@ pub(super) fn run(arguments: &ProbeArguments) -> Result<(), Failed> {
     } else {
         print(&described(&answer, shot.sensor.color))
     }
+}
+
+/// Whether two paths lead to one file that exists.
+fn same(one: &Path, other: &Path) -> bool {
+    matches!((one.canonicalize(), other.canonicalize()), (Ok(one), Ok(other)) if one == other)
 }
 
 fn described(probe: &Probe, color: SensorColor) -> String {

@@ -21,7 +21,7 @@ pub use body::{Geometry, Instance, SurfacePoint};
 pub use camera::Camera;
 pub use library::Library;
 pub use light::{Light, LightShape};
-pub use material::{Curve, Highlight, Material, Reflectance, Thermal};
+pub use material::{Curve, Highlight, Material, Reflectance, Refraction, Thermal};
 pub use model::Mesh;
 pub use projection::Projection;
 pub use resolve::Scene;

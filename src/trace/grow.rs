@@ -177,8 +177,26 @@ struct Passed {
 fn passed_on(place: &Place, material: &Material, slowness: f64) -> impl Iterator<Item = Passed> {
     let d = place.incoming;
     let flat = place.point.flat_normal;
-    // Interpolated normals may turn away from the viewer, or send light into the surface.
-    let usable = |n: DVec3| d.dot(n) < 0.0 && reflected(d, n).dot(flat) > 0.0;
+    let glass = material.refraction.as_ref();
+    // On the viewer's side and beyond. Behind a boundary is its glass, however the ray came there.
+    let [slowness, slowness_beyond] = match glass {
+        Some(glass) if !place.front => [glass.ior, 1.0],
+        Some(glass) => [slowness, glass.ior],
+        None => [slowness; 2],
+    };
+    let at_boundary = |n: DVec3| {
+        let outwards = |ior: f64| if place.front { 1.0 / ior } else { ior };
+        glass.map(|glass| boundary(d, n, outwards(glass.ior)))
+    };
+    // Interpolated normals may turn away from the viewer, or send light to the wrong side.
+    let usable = |n: DVec3| {
+        let stays = d.dot(n) < 0.0 && reflected(d, n).dot(flat) > 0.0;
+        stays
+            && match at_boundary(n) {
+                Some(Boundary::Passing { direction, .. }) => direction.dot(flat) < 0.0,
+                Some(Boundary::Total) | None => true,
+            }
+    };
     let normal = if usable(place.point.normal) {
         place.point.normal
     } else {
@@ -192,24 +210,18 @@ fn passed_on(place: &Place, material: &Material, slowness: f64) -> impl Iterator
         beyond: false,
         slowness,
     };
-    let mirror = material.mirror.as_ref().map(|mirror| mirror.most());
-    let Some(glass) = &material.refraction else {
-        return [mirror.map(|most| mirrored(Term::Mirror, 1.0, most)), None]
-            .into_iter()
-            .flatten();
+    let mirror = |share| {
+        let most = material.mirror.as_ref()?.most();
+        Some(mirrored(Term::Mirror, share, most))
     };
-    let most = glass.transmittance.most();
-    let (ratio, slowness_beyond) = if place.front {
-        (1.0 / glass.ior, glass.ior)
-    } else {
-        (glass.ior, 1.0)
-    };
-    match boundary(d, normal, ratio) {
-        Boundary::Total => [Some(mirrored(Term::Refraction, 1.0, most)), None],
-        Boundary::Passing {
+    let most = glass.map_or(0.0, |glass| glass.transmittance.most());
+    match at_boundary(normal) {
+        None => [mirror(1.0), None],
+        Some(Boundary::Total) => [Some(mirrored(Term::Refraction, 1.0, most)), None],
+        Some(Boundary::Passing {
             direction,
             reflected,
-        } => {
+        }) => {
             let through = Passed {
                 term: Term::Refraction,
                 share: 1.0 - reflected,
@@ -218,10 +230,7 @@ fn passed_on(place: &Place, material: &Material, slowness: f64) -> impl Iterator
                 beyond: true,
                 slowness: slowness_beyond,
             };
-            [
-                Some(through),
-                mirror.map(|most| mirrored(Term::Mirror, reflected, most)),
-            ]
+            [Some(through), mirror(reflected)]
         }
     }
     .into_iter()
@@ -273,5 +282,79 @@ impl Tracer<'_> {
             }
         }
         best
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::relativity::Event;
+    use crate::scene::{Reflectance, Refraction, SurfacePoint};
+    use crate::spectrum::Spectrum;
+    use proptest::prelude::*;
+    use std::sync::Arc;
+
+    /// A surface of flat normal +z that is met from `front` or behind.
+    fn place(incoming: DVec3, normal: DVec3, front: bool) -> Place {
+        Place {
+            worldline: 0,
+            event: Event::new(0.0, DVec3::ZERO),
+            point: SurfacePoint {
+                position: DVec3::ZERO,
+                flat_normal: DVec3::Z,
+                normal,
+                bulge: DVec3::ZERO,
+                clearance: 1e-13,
+            },
+            incoming,
+            front,
+        }
+    }
+
+    fn glass(ior: f64) -> Material {
+        let all = Reflectance {
+            weight: 1.0,
+            spectrum: Arc::new(Spectrum::Constant(1.0)),
+        };
+        Material {
+            mirror: Some(all.clone()),
+            refraction: Some(Refraction {
+                transmittance: all,
+                ior,
+            }),
+            ..Material::default()
+        }
+    }
+
+    #[test]
+    fn light_reflected_inside_glass_is_slow_however_it_came_there() {
+        // From a camera inside, whose rays are those of light in vacuum.
+        let steep = DVec3::new(0.9, 0.0, -0.19_f64.sqrt());
+        let rays: Vec<Passed> =
+            passed_on(&place(steep, DVec3::Z, false), &glass(1.5), 1.0).collect();
+        assert_eq!(rays.len(), 1, "total reflection");
+        assert_eq!(rays[0].slowness, 1.5);
+        let outside: Vec<f64> = passed_on(&place(steep, DVec3::Z, true), &glass(1.5), 1.0)
+            .map(|ray| ray.slowness)
+            .collect();
+        assert_eq!(outside, [1.5, 1.0]);
+    }
+
+    proptest! {
+        /// Corners of coarse round bodies have normals far from their triangles'.
+        #[test]
+        fn light_goes_on_to_its_own_side_whatever_the_vertex_normals(
+            way in prop::array::uniform3(-1.0..1.0_f64),
+            normal in prop::array::uniform3(-1.0..1.0_f64),
+            front in any::<bool>(),
+            ior in 1.0..4.0_f64,
+        ) {
+            let incoming = DVec3::from(way).normalize_or(DVec3::NEG_Z);
+            let normal = DVec3::from(normal).normalize_or(DVec3::Z);
+            prop_assume!(incoming.z < -1e-6);
+            for ray in passed_on(&place(incoming, normal, front), &glass(ior), 1.0) {
+                prop_assert_eq!(ray.direction.z < 0.0, ray.beyond, "{:?}", ray.direction);
+            }
+        }
     }
 }
