@@ -50,11 +50,14 @@ impl Library {
         }
         let sky = shot.background.image.as_ref().and_then(|file| {
             let image = SkyImage::read(&beside(shot, file)).map_err(|e| e.to_string());
-            kept(shot, "background.image", image, &mut mistakes)
+            let help = "name a panorama as Radiance HDR, OpenEXR or PNG";
+            kept(shot, ("background.image", help), image, &mut mistakes)
         });
         let stars = shot.background.stars.as_ref().and_then(|stars| {
             let stars = load_stars(shot, stars);
-            kept(shot, "background.stars.file", stars, &mut mistakes)
+            let help =
+                "a row a star: azimuth and elevation in degrees, temperature in K, magnitude";
+            kept(shot, ("background.stars.file", help), stars, &mut mistakes)
         });
         if mistakes.is_empty() {
             Ok(Self {
@@ -147,12 +150,15 @@ pub(super) fn beside(shot: &Shot, file: &Path) -> PathBuf {
 /// What a file gave, or nothing and the mistake.
 fn kept<T>(
     shot: &Shot,
-    key: &str,
+    (key, help): (&str, &str),
     read: Result<T, String>,
     mistakes: &mut Vec<Mistake>,
 ) -> Option<Arc<T>> {
     read.map(Arc::new)
-        .map_err(|message| mistakes.push(shot.places.mistake(key, message, None)))
+        .map_err(|message| {
+            let help = Some(help.to_owned());
+            mistakes.push(shot.places.mistake(key, message, help));
+        })
         .ok()
 }
 

@@ -68,7 +68,7 @@ pub(super) fn grow(
             add_sky(tracer, &bud, trees);
             continue;
         };
-        let doppler = bud.doppler / nearest.frequency_ratio;
+        let doppler = held(bud.doppler / nearest.frequency_ratio);
         let branch = Branch {
             parent: bud.parent,
             term: bud.term,
@@ -106,10 +106,16 @@ fn add_sky(tracer: &Tracer<'_>, bud: &Bud, trees: &mut ShadeTrees) {
                 share: bud.share,
                 doppler: to_surface,
             }),
-            doppler: bud.doppler * to_surface,
+            doppler: held(bud.doppler * to_surface),
             seen: Seen::Sky(direction),
         });
     }
+}
+
+/// A Doppler factor of many surfaces, held finite and above 0: infinitely much of nothing would be
+/// no number.
+fn held(doppler: f64) -> f64 {
+    doppler.clamp(f64::MIN_POSITIVE, f64::MAX)
 }
 
 /// Where branches leave from.
