@@ -48,6 +48,8 @@ mod scene;
 mod swept;
 #[path = "hard_cases/visibility.rs"]
 mod visibility;
+#[path = "hard_cases/wall.rs"]
+mod wall;
 #[path = "hard_cases/windows.rs"]
 mod windows;
 

@@ -7,42 +7,16 @@
 
 #[path = "hard_cases/scene.rs"]
 mod scene;
+#[path = "hard_cases/wall.rs"]
+mod wall;
 
 use restframe::film::{Channels, auto_exposure};
 use scene::Set;
+use wall::wall;
 
 /// hc/k, nm·K, and 2hc², W·m⁻²·sr⁻¹·nm⁴ (CODATA 2018).
 const C2: f64 = 1.438_776_877_503_933_8e7;
 const C1: f64 = 1.191_042_972_397_188e20;
-
-/// A wall that fills the one pixel, comes on at `beta`, and is lit from the front by `sun`
-/// (W·m⁻²·nm⁻¹ at all wavelengths).
-fn wall(sensor: &str, material: &str, beta: f64, sun: f64) -> Set {
-    Set::new(&format!(
-        r#"
-[image]
-size = [1, 1]
-samples = 1
-[worldline.fast]
-velocity = [0, 0, {beta}]
-[[model]]
-file = "wall.obj"
-worldline = "fast"
-material = "wall"
-[material.wall]
-{material}
-[[light]]
-kind = "sun"
-direction = [0, 0, -1]
-scale = {sun}
-spectrum = 1.0
-[camera]
-position = [0, 0, 3]
-hfov = 1e-6
-{sensor}
-"#
-    ))
-}
 
 fn bands(window: [f64; 2], wavelengths: u32) -> String {
     format!(

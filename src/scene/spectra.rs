@@ -67,11 +67,12 @@ impl Spectra<'_> {
         if let Some(gaussian) = &table.gaussian {
             return Spectrum::gaussian(self.at(&gaussian.center), self.at(&gaussian.width));
         }
-        if let Some(sampled) = table
-            .file
-            .as_ref()
-            .and_then(|file| self.library.table(file))
-        {
+        if let Some(file) = &table.file {
+            // Not black in its place: a spectrum that is silently missing is seen too late.
+            let sampled = self
+                .library
+                .table(file)
+                .expect("the shot's files are read first");
             return Ok(Spectrum::Sampled(sampled.clone().with_beyond(beyond)));
         }
         let named = table.illuminant.as_deref().and_then(illuminant);

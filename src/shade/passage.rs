@@ -5,6 +5,7 @@
 //! those of plain mirrors are, the product is one number.
 
 use super::curve::Curve;
+use super::received::finite;
 use crate::trace::Branch;
 
 /// The ways of a tree's nodes, in their order.
@@ -84,19 +85,44 @@ impl Passages {
         last.shape.is_none().then_some(last.factor)
     }
 
-    /// Weighs spectral radiance by the last way.
+    /// Weighs spectral radiance by the last way; held finite first, as nothing of infinitely much
+    /// would be no number.
     pub(super) fn weigh_last(&self, radiance: &mut [f64]) {
         let Some(last) = self.entries.last() else {
             return;
         };
         match last.shape {
-            None => radiance.iter_mut().for_each(|value| *value *= last.factor),
+            None => radiance
+                .iter_mut()
+                .for_each(|value| *value = finite(*value) * last.factor),
             Some(start) => {
                 let shape = &self.shapes[start..start + self.count];
                 for (value, shape) in radiance.iter_mut().zip(shape) {
-                    *value *= last.factor * f64::from(*shape);
+                    *value = finite(*value) * (last.factor * f64::from(*shape));
                 }
             }
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::trace::Term;
+
+    #[test]
+    fn nothing_of_infinitely_much_light_is_nothing() {
+        let mut passages = Passages::new(1);
+        passages.start();
+        let branch = Branch {
+            parent: 0,
+            term: Term::Mirror,
+            share: 1.0,
+            doppler: 1.0,
+        };
+        passages.go_on(&branch, None, 1.0);
+        let mut light = [f64::INFINITY];
+        passages.weigh_last(&mut light);
+        assert_eq!(light, [0.0]);
     }
 }

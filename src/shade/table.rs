@@ -1,5 +1,5 @@
-//! The sensor's channels of a curve as a function of ln D (XYZ, or band totals): where one shift serves everything that makes the curve,
-//! no wavelength need be looked at when a ray is shaded.
+//! The sensor's channels of a curve as a function of ln D (XYZ, or band totals): where one shift
+//! serves everything that makes the curve, no wavelength need be looked at when a ray is shaded.
 
 use crate::spectrum::{LogAxis, Sensor, catmull_rom};
 

@@ -87,7 +87,10 @@ impl Tracer<'_> {
             let first = trees.nodes.len();
             let cut = match nearest {
                 Some(nearest) => self.add_tree(nearest, &mut scratch.buds, trees),
-                None => self.add_sky(*direction, trees),
+                None => {
+                    self.add_sky(*direction, trees);
+                    0.0
+                }
             };
             trees.roots.push(Root {
                 first: first as u32,
@@ -182,7 +185,7 @@ impl Tracer<'_> {
     }
 
     /// Adds the background that a camera ray sees.
-    fn add_sky(&self, direction: DVec3, trees: &mut ShadeTrees) -> f64 {
+    fn add_sky(&self, direction: DVec3, trees: &mut ShadeTrees) {
         if let Some((seen, doppler)) = self.sky(self.scene.camera.worldline, direction) {
             trees.nodes.push(Node {
                 branch: None,
@@ -190,7 +193,6 @@ impl Tracer<'_> {
                 seen: Seen::Sky(seen),
             });
         }
-        0.0
     }
 
     /// The background in a unit direction of some rest frame: the direction on its own axes, and D

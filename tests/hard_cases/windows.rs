@@ -1,6 +1,7 @@
 //! C. Windows of the sensor.
 
 use crate::scene::Set;
+use crate::wall::wall;
 
 cases! {
     /// β = 0.6 head-on is D = 2. Relative tolerances: 1e-13 for spectral radiance, whose
@@ -38,29 +39,14 @@ cases! {
     }
 }
 
-/// A wall that fills the one pixel and comes on at β.
+/// A wall that glows.
 fn glowing(sensor: &str, light: &str, beta: f64) -> Set {
-    Set::new(&format!(
-        r#"
-[image]
-size = [1, 1]
-samples = 1
-[worldline.fast]
-velocity = [0, 0, {beta}]
-[[model]]
-file = "wall.obj"
-worldline = "fast"
-material = "glow"
-[material.glow]
-{light}
-[camera]
-position = [0, 0, 3]
-hfov = 1e-6
-[sensor]
-exposure = 0
-{sensor}
-"#
-    ))
+    wall(
+        &format!("[sensor]\nexposure = 0\n{sensor}"),
+        light,
+        beta,
+        0.0,
+    )
 }
 
 /// Largest relative difference of two curves of radiance, the first over `factor`.
