@@ -8,7 +8,7 @@
 //!             │                                     │
 //!             └────────── render, probe ────────────┘
 //!                               │
-//!                             queue                          caller
+//!                        queue ──> study                     callers
 //!                               │
 //!                           cli, main
 //! ```
@@ -27,6 +27,7 @@
 //! - [`film`]: sums of XYZ, or of bands, to pictures. Every number in a file is finite.
 //! - [`render`] and [`probe`]: all of it on one page, for an image and for a pixel.
 //! - [`queue`]: the images of a night, each whole or absent.
+//! - [`study`]: accuracy against time, by rendering the same image at many settings.
 //! - [`cli`]: arguments, messages, exit codes.
 //!
 //! # Precision
@@ -65,4 +66,5 @@ pub mod scene;
 pub mod shade;
 pub mod shot;
 pub mod spectrum;
+pub mod study;
 pub mod trace;

@@ -19,6 +19,7 @@ const ROOMS: &[&[&str]] = &[
     &["render"],
     &["probe"],
     &["queue"],
+    &["study"],
     &["cli"],
     &["main"],
 ];

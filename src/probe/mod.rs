@@ -9,7 +9,6 @@ use crate::render::{LabPath, View, development};
 use crate::scene::Scene;
 use crate::shade::Radiance;
 use crate::shot::Shot;
-use crate::spectrum::Sensor;
 use crate::trace::{Branch, Node, Scratch, Seen, ShadeTrees, Surface, Term};
 use glam::DVec3;
 use serde::Serialize;
@@ -116,7 +115,7 @@ pub fn probe(
     };
     let radiance = light.total();
     let channels = view.shader().xyz_of(&radiance);
-    let xyz = Sensor::cie1931(view.shader().axis()).xyz(&radiance);
+    let xyz = view.shader().eye_of(&radiance);
     let gain = exposure.exp2() / 100.0;
     let rgb = development(shot, exposure).rgb_from_xyz.map(|row| {
         let terms = row.iter().zip(channels).map(|(m, v)| m * v);

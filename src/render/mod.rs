@@ -10,13 +10,17 @@ use crate::trace::{Samples, Spacetime, Stage, Surface, Tracer};
 use glam::DVec3;
 use rayon::prelude::*;
 use std::ops::Range;
+use std::time::Instant;
 
 mod meter;
 mod paint;
+mod profile;
 
 pub use meter::{Metered, metered_exposure, motion_mistake};
+pub use profile::{Profile, Seconds};
 
 use paint::{BAND, Painter, Row, empty_film, split_bands};
+use profile::Lap;
 
 /// Size and quality of an image, as asked for on the command line or by the shot.
 #[derive(Debug, Clone, PartialEq)]
@@ -134,6 +138,7 @@ impl<'a> View<'a> {
             shadows: self.called.shadows,
             bounces: self.bounces,
             cutoff: self.cutoff,
+            clock: None,
         }
     }
 }
@@ -150,6 +155,23 @@ pub fn render(
     options: &Options,
     done: &(dyn Fn(u64) + Sync),
 ) -> Result<Film, plan::MotionError> {
+    render_profiled(shot, frame, scene, stage, options, done, None)
+}
+
+/// [`render`], with its seconds counted in `profile` if there is one, which takes a little longer.
+///
+/// # Errors
+/// Where a worldline has no velocity in this frame.
+pub fn render_profiled(
+    shot: &Shot,
+    frame: u32,
+    scene: &Scene,
+    stage: &Stage,
+    options: &Options,
+    done: &(dyn Fn(u64) + Sync),
+    profile: Option<&Profile>,
+) -> Result<Film, plan::MotionError> {
+    let begun = Instant::now();
     let view = |effects: &Effects| View::new(shot, frame, effects, scene, stage);
     let whole = view(&shot.effects)?;
     let splices = shot
@@ -169,6 +191,9 @@ pub fn render(
             .find(|(rows, _)| rows.contains(&row))
             .map_or(&whole, |(_, view)| view)
     };
+    if let Some(profile) = profile {
+        profile.add(|sum| sum.prepare += begun.elapsed().as_secs_f64());
+    }
     let samples = Samples::new(options.samples, shot.image.filter);
     let bands = (options.height as usize).div_ceil(BAND);
     let mut film = empty_film(options, channels(shot));
@@ -177,6 +202,7 @@ pub fn render(
         .par_iter_mut()
         .enumerate()
         .for_each_init(Painter::default, |painter, (band, part)| {
+            painter.lap = profile.map(|_| Lap::default());
             let first = (band * BAND) as u32;
             let last = (first + BAND as u32).min(options.height);
             for row in first..last {
@@ -187,6 +213,9 @@ pub fn render(
                 };
                 painter.paint(view_of(row), &samples, &place, part);
                 done(u64::from(options.width) * u64::from(options.samples));
+            }
+            if let (Some(profile), Some(lap)) = (profile, &painter.lap) {
+                lap.report(profile);
             }
         });
     Ok(film)

@@ -1,12 +1,14 @@
 //! Pixels: their rays traced, shaded and averaged, a band of rows at a time.
 
+use super::profile::Lap;
 use super::{LabPath, Options, View};
 use crate::film::{Channels, Film, Layers};
 use crate::shade::ShadeScratch;
 use crate::shot::Layer;
-use crate::trace::{Node, Samples, Scratch, Seen, ShadeTrees};
+use crate::trace::{Node, Samples, Scratch, Seen, ShadeTrees, Tracer};
 use glam::DVec3;
 use std::ops::Range;
+use std::time::Instant;
 
 /// Rows of pixels that one thread takes at a time.
 pub(super) const BAND: usize = 8;
@@ -102,6 +104,8 @@ pub(super) struct Painter {
     scratch: Scratch,
     trees: ShadeTrees,
     shading: ShadeScratch,
+    /// Where seconds are counted, if anywhere.
+    pub(super) lap: Option<Lap>,
 }
 
 impl Painter {
@@ -123,6 +127,7 @@ impl Painter {
         for first in (0..width).step_by(step as usize) {
             let pixels = first..(first + step).min(width);
             self.trace(view, samples, row, pixels.clone());
+            let begun = self.lap.as_ref().map(|_| Instant::now());
             let mut start = 0;
             for (index, x) in pixels.enumerate() {
                 let rays = start..self.ends[index];
@@ -135,10 +140,14 @@ impl Painter {
                     self.write_layers(view, central, at, part);
                 }
             }
+            if let (Some(lap), Some(begun)) = (&mut self.lap, begun) {
+                lap.shade += begun.elapsed().as_secs_f64();
+            }
         }
     }
 
     fn trace(&mut self, view: &View<'_>, samples: &Samples, row: &Row<'_>, pixels: Range<u32>) {
+        let begun = self.lap.as_ref().map(|_| Instant::now());
         self.directions.clear();
         self.ends.clear();
         for x in pixels {
@@ -150,8 +159,14 @@ impl Painter {
             self.ends.push(self.directions.len());
         }
         self.trees.clear();
-        view.tracer()
-            .trace(&self.directions, &mut self.scratch, &mut self.trees);
+        if let (Some(lap), Some(begun)) = (&mut self.lap, begun) {
+            lap.aim += begun.elapsed().as_secs_f64();
+        }
+        let tracer = Tracer {
+            clock: self.lap.as_ref().map(|lap| &lap.clock),
+            ..view.tracer()
+        };
+        tracer.trace(&self.directions, &mut self.scratch, &mut self.trees);
     }
 
     /// The mean over all samples of a pixel: those of them that have no ray are black.

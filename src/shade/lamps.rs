@@ -1,11 +1,12 @@
 //! Light of lamps on a surface, under the shifts of both.
 
 use super::bake::MaterialCurves;
+use super::curves::{CurveShader, add};
 use super::received::finite;
-use super::shader::{ShadeScratch, Shader, add};
+use super::shader::ShadeScratch;
 use crate::trace::Lit;
 
-impl Shader {
+impl CurveShader {
     /// Light of the surface's lamps. Those that share the surface's shift are summed by emitter,
     /// so that each table is read once.
     pub(super) fn lamps_xyz(

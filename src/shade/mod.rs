@@ -12,6 +12,7 @@
 
 mod bake;
 mod curve;
+mod curves;
 mod lamps;
 mod passage;
 mod radiance;

@@ -10,6 +10,7 @@
 //!
 //! Source: the shot format, which README.md introduces and `restframe schema` prints.
 
+mod accuracy;
 mod appearance;
 mod body;
 mod camera;
@@ -31,6 +32,7 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 use std::path::PathBuf;
 
+pub use accuracy::{Accuracy, AccuracyKeys, Precision, Preset, Spectra};
 pub use appearance::{
     Beyond, Diffuse, Emission, Gaussian, Highlight, Material, Mirror, Refraction, SpectrumTable,
     SpectrumValue, Thermal, ThermalCurve,
@@ -43,8 +45,8 @@ pub use load::{MAX_BYTES, load, parse};
 pub use mistake::{Mistake, Mistakes, Places};
 pub use schema::schema;
 pub use settings::{
-    Accuracy, AutoExposure, Beaming, Clock, Effects, Exposure, Filter, Format, Image, LARGEST_SIDE,
-    Layer, Output, Sensor, SensorColor, Spectra, Splice, SpliceEffects, Switch, Tone,
+    AutoExposure, Beaming, Clock, Depth, Effects, Exposure, Filter, Format, Image, LARGEST_SIDE,
+    Layer, Output, Sensor, SensorColor, Splice, SpliceEffects, Switch, Tone,
 };
 pub use sky::{
     Background, MOST_STARS, RandomStars, STAR_KELVIN, STAR_MAGNITUDE, StarCatalogue, Stars,
@@ -95,9 +97,9 @@ pub struct Shot {
     #[serde(default)]
     #[schemars(extend("default" = {}))]
     pub sensor: Sensor,
-    /// How exactly spectra are held.
+    /// What is approximated, and how finely.
     #[serde(default)]
-    #[schemars(extend("default" = {}))]
+    #[schemars(extend("default" = {}), with = "AccuracyKeys")]
     pub accuracy: Accuracy,
     /// Files and layers that are written.
     #[serde(default)]

@@ -1,5 +1,5 @@
 //! The settings of a shot that place nothing in the scene: clock, image, effects, sensor,
-//! accuracy, output. Every key has a default; units are in each key's comment.
+//! output. Every key has a default; units are in each key's comment.
 
 use super::Track;
 use schemars::JsonSchema;
@@ -226,40 +226,6 @@ pub enum Tone {
     Clip,
 }
 
-/// `[accuracy]`: how exactly spectra are held.
-#[derive(Debug, Clone, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, default)]
-pub struct Accuracy {
-    /// How curves are held. Default: "grid".
-    pub spectra: Spectra,
-    /// Wavelengths over the sensor's window, in equal ratios, from 8 to 4096: what is finer than their spacing is lost. Default: 84.
-    #[schemars(range(min = 8, max = 4096))]
-    pub wavelengths: u32,
-    /// Mirrored and refracted light that reaches the camera with no more than this share (the product of the reflectances on its way) is left out, from 0 to 1. Default: 1e-4.
-    #[schemars(range(min = 0, max = 1))]
-    pub cutoff: f64,
-}
-
-impl Default for Accuracy {
-    fn default() -> Self {
-        Accuracy {
-            spectra: Spectra::Grid,
-            wavelengths: 84,
-            cutoff: 1e-4,
-        }
-    }
-}
-
-/// How curves are held while rendering.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
-#[serde(rename_all = "lowercase")]
-pub enum Spectra {
-    /// Baked on a grid in ln λ, where a Doppler shift is a translation: fast.
-    Grid,
-    /// The cardinal spline through the authored points, read anew for every shift: exact, slow.
-    Spline,
-}
-
 /// `[output]`: files and layers that are written.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
@@ -269,6 +235,8 @@ pub struct Output {
     pub formats: Vec<Format>,
     /// Extra layers of the EXR. Default: [].
     pub layers: Vec<Layer>,
+    /// What the EXR's color channels are held in. Default: "float".
+    pub depth: Depth,
 }
 
 impl Default for Output {
@@ -276,6 +244,7 @@ impl Default for Output {
         Output {
             formats: vec![Format::Png],
             layers: Vec::new(),
+            depth: Depth::Float,
         }
     }
 }
@@ -288,6 +257,16 @@ pub enum Format {
     Png,
     /// Linear 32 bit float before exposure, with layers.
     Exr,
+}
+
+/// What the color channels of an EXR are held in.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum Depth {
+    /// 32 bits a value.
+    Float,
+    /// 16 bits a value, from 6e-8 to 65504, 3 digits: half the file. Layers stay at 32.
+    Half,
 }
 
 /// An extra layer of the EXR, about the first surface that a pixel sees.

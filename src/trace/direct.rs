@@ -1,9 +1,10 @@
 //! Direct light on a surface: lamps on the past light cone of the surface event, in the surface's
 //! rest frame.
 
+use super::clock::timed;
 use super::stage::RestRay;
 use super::surface::Place;
-use super::{Lit, Tracer};
+use super::{Lit, Phase, Tracer};
 use crate::relativity::{Event, light_arriving};
 use crate::scene::{Light, LightShape, Material};
 use glam::DVec3;
@@ -51,7 +52,8 @@ fn light_on(
     if cos <= 0.0 || incoming.falloff <= 0.0 {
         return None;
     }
-    if tracer.shadows && in_shadow(tracer, surface, light, &incoming) {
+    let shaded = || in_shadow(tracer, surface, light, &incoming);
+    if tracer.shadows && timed(tracer.clock, Phase::Shadow, shaded) {
         return None;
     }
     let irradiance = incoming.falloff * cos;

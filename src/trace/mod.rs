@@ -11,6 +11,7 @@
 
 mod ball;
 mod bvh;
+mod clock;
 mod direct;
 mod flight;
 mod grow;
@@ -25,10 +26,12 @@ mod tree;
 mod triangle;
 
 use crate::scene::{Material, Scene};
+use clock::{timed, timed_without_shadows};
 use glam::DVec3;
 use grow::Buds;
 use surface::Place;
 
+pub use clock::{Clock, Phase};
 pub use ray::boost_directions;
 pub use sampler::{Samples, filter_offset};
 pub use spacetime::{Link, Spacetime};
@@ -72,6 +75,8 @@ pub struct Tracer<'a> {
     /// Branches that carry no more than this share of what arrives by them are not followed. What
     /// is lost is [`Root::cut`].
     pub cutoff: f64,
+    /// Where seconds are counted, if anywhere.
+    pub clock: Option<&'a Clock>,
 }
 
 impl Tracer<'_> {
@@ -83,6 +88,10 @@ impl Tracer<'_> {
         for worldline in self.stage.worldlines() {
             self.meet(worldline, directions, scratch);
         }
+        timed_without_shadows(self.clock, || self.add_trees(directions, scratch, trees));
+    }
+
+    fn add_trees(&self, directions: &[DVec3], scratch: &mut Scratch, trees: &mut ShadeTrees) {
         for (direction, nearest) in directions.iter().zip(&scratch.nearest) {
             let first = trees.nodes.len();
             let cut = match nearest {
@@ -103,8 +112,17 @@ impl Tracer<'_> {
     /// Nearest hits among the bodies of one worldline.
     fn meet(&self, worldline: usize, directions: &[DVec3], scratch: &mut Scratch) {
         let link = self.spacetime.link(worldline, self.scene.camera.worldline);
+        timed(self.clock, Phase::Boost, || {
+            boost_directions(link, directions, &mut scratch.boosted);
+        });
+        timed(self.clock, Phase::Traverse, || {
+            self.traverse(worldline, scratch)
+        });
+    }
+
+    /// Nearest hits of boosted rays.
+    fn traverse(&self, worldline: usize, scratch: &mut Scratch) {
         let camera = self.spacetime.camera_event(worldline);
-        boost_directions(link, directions, &mut scratch.boosted);
         for (nearest, &(direction, ratio)) in scratch.nearest.iter_mut().zip(&scratch.boosted) {
             let ray = RestRay {
                 origin: camera.x,
