@@ -6,6 +6,7 @@
 mod check;
 mod probe;
 mod render;
+mod study;
 
 use crate::queue::{FrameList, Mode};
 use crate::shot::{self, Mistakes};
@@ -37,6 +38,8 @@ enum Command {
     },
     /// Tells what the centre of one pixel sees: event, Doppler factor, spectrum, colour
     Probe(ProbeArguments),
+    /// Measures what accuracy costs in time: a report of one image at many settings of every knob
+    Study(StudyArguments),
     /// Prints the JSON schema of the shot format, for editors
     Schema,
 }
@@ -103,6 +106,33 @@ struct ProbeArguments {
     json: bool,
 }
 
+#[derive(Debug, Args)]
+struct StudyArguments {
+    /// Shot file
+    shot: PathBuf,
+    /// Folder that gets a folder with study.html, study.csv and study.json
+    #[arg(long, value_name = "DIR", default_value = "renders")]
+    out: PathBuf,
+    /// Number of the frame; default the last of those that call for most effects
+    #[arg(long, value_name = "N")]
+    frame: Option<u32>,
+    /// Factor on the size of the image; default such that it has at most 640 x 360 pixels
+    #[arg(long, value_name = "FACTOR", value_parser = scale, allow_negative_numbers = true)]
+    scale: Option<f64>,
+    /// Samples a pixel where they are not what is swept; default the shot's, at most 4
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=65536), allow_negative_numbers = true)]
+    samples: Option<u32>,
+    /// How often every setting is rendered
+    #[arg(long, value_name = "N", default_value = "5", value_parser = clap::value_parser!(u32).range(1..=1000), allow_negative_numbers = true)]
+    repeats: u32,
+    /// Threads; 0 takes every processor
+    #[arg(long, value_name = "N", default_value = "0", value_parser = clap::value_parser!(u16).range(0..=1024), allow_negative_numbers = true)]
+    threads: u16,
+    /// Print the study as JSON on standard output too
+    #[arg(long)]
+    json: bool,
+}
+
 /// A factor on the size: above 0, finite.
 fn scale(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
@@ -122,6 +152,7 @@ pub fn run() -> ExitCode {
         Command::Render(arguments) => render::run(&arguments),
         Command::Check { shots, json } => check::run(&shots, json),
         Command::Probe(arguments) => probe::run(&arguments),
+        Command::Study(arguments) => study::run(&arguments),
         Command::Schema => schema(),
     };
     match done {

@@ -16,15 +16,19 @@ pub(super) fn run(arguments: &RenderArguments) -> Result<(), Failed> {
         scale: arguments.scale,
         samples: arguments.samples,
     };
-    let pool = rayon::ThreadPoolBuilder::new()
-        .num_threads(arguments.threads.into())
-        .build()
-        .map_err(|error| failed(&error.to_string()))?;
-    pool.install(|| {
+    pool(arguments.threads)?.install(|| {
         let shots = read_all(arguments)?;
         let work = plan_work(&shots, &request)?;
         render_all(&shots, &work, &request, arguments)
     })
+}
+
+/// So many threads; 0 for one a processor.
+pub(super) fn pool(threads: u16) -> Result<rayon::ThreadPool, Failed> {
+    rayon::ThreadPoolBuilder::new()
+        .num_threads(threads.into())
+        .build()
+        .map_err(|error| failed(&error.to_string()))
 }
 
 fn read_all(arguments: &RenderArguments) -> Result<Vec<Prepared>, Failed> {
@@ -95,7 +99,7 @@ fn plan_work(shots: &[Prepared], request: &Request) -> Result<Vec<Vec<u32>>, Fai
 }
 
 /// A scale that makes an image larger than any may be.
-fn check_scale(prepared: &Prepared, request: &Request) -> Result<(), Failed> {
+pub(super) fn check_scale(prepared: &Prepared, request: &Request) -> Result<(), Failed> {
     let [width, height] = prepared
         .shot
         .image

@@ -25,6 +25,25 @@ pub struct Called {
     pub because: Vec<Reason>,
 }
 
+impl Called {
+    /// How many effects that is.
+    pub fn count(&self) -> usize {
+        let beaming = self.beaming != Beaming::Off;
+        [
+            self.geometry,
+            self.doppler,
+            beaming,
+            self.thermal,
+            self.shadows,
+            self.mirror,
+            self.refraction,
+        ]
+        .into_iter()
+        .filter(|called| *called)
+        .count()
+    }
+}
+
 /// Why an effect is, or is not, simulated.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Reason {

@@ -11,6 +11,7 @@ mod shots;
 mod write;
 
 pub use frames::{FrameList, FrameListError, Resolved};
+pub use picture::{Pictures, pictures};
 pub use progress::{Mode, Progress};
 pub use shots::{Exposing, Prepared, RenderError, Request, options, render_shot};
 pub use write::write_atomically;

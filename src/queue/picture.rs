@@ -6,7 +6,7 @@ use crate::scene::Scene;
 use crate::shot::{Format, Sensor, Shot};
 
 /// The files of a frame: extension and content, and how many values had to be clamped.
-pub(super) struct Pictures {
+pub struct Pictures {
     /// Extension and bytes, in the order of the shot's formats.
     pub files: Vec<(&'static str, Vec<u8>)>,
     /// Values beyond what a file can hold.
@@ -17,7 +17,7 @@ pub(super) struct Pictures {
 ///
 /// # Errors
 /// When an encoder refuses.
-pub(super) fn pictures(
+pub fn pictures(
     shot: &Shot,
     frame: u32,
     scene: &Scene,

@@ -60,6 +60,18 @@ pub struct Noise {
     pub too_noisy: bool,
 }
 
+impl Noise {
+    /// Part of a time within which settings cannot be told apart.
+    pub fn tolerance(&self) -> f64 {
+        /// Medians of five differ by about half of what single times do.
+        const OF_MEDIANS: f64 = 0.5;
+        const LEAST: f64 = 0.02;
+        (OF_MEDIANS * self.spread)
+            .max((self.duplicate - 1.0).abs())
+            .max(LEAST)
+    }
+}
+
 /// Time of a phase.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct PhaseTime {

@@ -1,8 +1,262 @@
 //! Accuracy against time: one image rendered at many settings of one knob at a time, by the same
 //! [`render`](crate::render) as everyone calls.
 //!
-//! In: a shot without mistakes. Out: a [`Study`].
+//! In: a shot without mistakes. Out: a [`Study`]. The other knobs stand as the shot has them, in
+//! the setting and in what it is compared with, so that an error is that of the knob alone. Bodies
+//! and their trees are built before anything is timed, as for all frames of a sequence but the
+//! first.
 
+mod displacement;
+mod effects;
+mod errors;
 pub mod findings;
+mod knobs;
+mod memory;
+mod paper;
+mod ranking;
+pub mod report;
+mod rounds;
+mod spheres;
+mod subject;
+mod sweep;
 
 pub use findings::Study;
+
+use crate::film::EncodeError;
+use crate::film::compare::CompareError;
+use crate::plan::{self, Called};
+use crate::queue::Prepared;
+use crate::render::{Options, motion_mistake};
+use crate::scene::Scene;
+use crate::shot::{Accuracy, Mistakes, Shot, Spectra};
+use crate::trace::Stage;
+use findings::{Machine, Noise, PhaseTime};
+use knobs::KNOBS;
+use paper::Compared;
+use rounds::{Measured, measure, median};
+use std::path::PathBuf;
+use std::sync::Arc;
+use subject::{Bodies, PHASES, Subject, Variant};
+
+/// What is studied.
+#[derive(Debug, Clone)]
+pub struct Request {
+    /// Number of the frame, among those of the shot.
+    pub frame: u32,
+    /// Size and samples of its picture.
+    pub options: Options,
+    /// How often every setting is rendered, at least 1.
+    pub repeats: u32,
+    /// A folder for files that nobody reads.
+    pub scratch: PathBuf,
+}
+
+/// Why there is no study.
+#[derive(Debug, thiserror::Error)]
+pub enum StudyError {
+    /// The shot has a mistake that shows in this frame.
+    #[error("the shot has mistakes")]
+    Mistakes(#[from] Mistakes),
+    /// The encoder refused.
+    #[error(transparent)]
+    Encode(#[from] EncodeError),
+    /// A picture could not be written.
+    #[error("{0}")]
+    Write(#[from] std::io::Error),
+    /// A picture that was written could not be read again.
+    #[error("a picture just written cannot be read: {0}")]
+    Read(#[from] image::ImageError),
+    /// Two pictures could not be compared.
+    #[error(transparent)]
+    Compare(#[from] CompareError),
+}
+
+/// The image as the shot has it, from which every variant starts.
+pub(crate) struct Start<'a> {
+    shot: &'a Shot,
+    frame: u32,
+    options: Options,
+    bodies: Arc<Bodies>,
+}
+
+impl Start<'_> {
+    /// A variant that differs in nothing yet.
+    fn variant(&self, setting: String, toml: Option<String>) -> Variant {
+        Variant {
+            setting,
+            family: String::new(),
+            toml,
+            current: false,
+            shot: self.shot.clone(),
+            bodies: Arc::clone(&self.bodies),
+            options: self.options.clone(),
+        }
+    }
+
+    /// The shot as it is.
+    fn as_it_is(&self) -> Variant {
+        Variant {
+            family: "as it is".to_owned(),
+            current: true,
+            ..self.variant("as it is".to_owned(), None)
+        }
+    }
+}
+
+/// Studies one image. `news` is told what is being done.
+///
+/// # Errors
+/// Mistakes of the frame; files that cannot be written or read.
+pub fn study(
+    prepared: &Prepared,
+    request: &Request,
+    news: &dyn Fn(&str),
+) -> Result<Study, StudyError> {
+    let shot = &prepared.shot;
+    let frame = request.frame;
+    let called =
+        plan::called(shot, frame, &shot.effects).map_err(|error| motion_mistake(shot, &error))?;
+    let (exposing, _) = prepared.exposure()?;
+    let subject = Subject::new(shot, frame, &exposing, request.scratch.clone());
+    let scene = Scene::resolve(shot, &prepared.library, frame, None)?;
+    let stage = Stage::with_precision(&scene.geometry, None, shot.accuracy.tracing);
+    let start = Start {
+        shot,
+        frame,
+        options: request.options.clone(),
+        bodies: Arc::new(Bodies { scene, stage }),
+    };
+    news("what is compared with the paper, and how much equal work differs");
+    let compared = compare(&start, &called, &subject, request.repeats)?;
+    let noise = noise(&compared);
+    let mut sweeps = Vec::new();
+    for knob in KNOBS {
+        let knob = knob(&start, &called);
+        news(&format!("{}: {} settings", knob.key, knob.variants.len()));
+        sweeps.push(sweep::sweep(
+            &knob,
+            &subject,
+            request.repeats,
+            noise.tolerance(),
+        )?);
+    }
+    news("effects, off and on");
+    let effects = effects::costs(
+        &start,
+        &prepared.library,
+        &called,
+        &subject,
+        request.repeats,
+    )?;
+    let [current, _, rgb, lines, spline, grid] = &compared;
+    let paper = Compared {
+        current,
+        rgb,
+        lines,
+        spline,
+        grid,
+        geometry: called.geometry,
+        doppler: called.doppler,
+    };
+    Ok(Study {
+        schema_version: 1,
+        shot: prepared.stem(),
+        title: shot.shot.title.clone(),
+        frame,
+        size: [request.options.width, request.options.height],
+        samples: request.options.samples,
+        machine: Machine {
+            processor: processor(),
+            threads: rayon::current_num_threads(),
+            version: env!("CARGO_PKG_VERSION"),
+            repeats: request.repeats,
+        },
+        noise,
+        phases: phases(current),
+        recommendations: sweeps
+            .iter()
+            .flat_map(|sweep| ranking::recommendations(sweep, noise.tolerance()))
+            .collect(),
+        paper: paper.rows(),
+        sweeps,
+        effects,
+    })
+}
+
+/// The shot as it is, twice; without shift; by lines, splines and the grid.
+fn compare(
+    start: &Start<'_>,
+    called: &Called,
+    subject: &Subject,
+    rounds: u32,
+) -> Result<[Measured; 6], StudyError> {
+    let held = |spectra: Spectra, wavelengths: u32| Variant {
+        shot: Shot {
+            accuracy: Accuracy {
+                spectra,
+                wavelengths,
+                line_spacing: 5.0,
+                ..start.shot.accuracy
+            },
+            ..start.shot.clone()
+        },
+        ..start.as_it_is()
+    };
+    let variants = [
+        start.as_it_is(),
+        start.as_it_is(),
+        knobs::without_shift(start, called),
+        held(Spectra::Lines, 84),
+        held(Spectra::Spline, 81),
+        held(Spectra::Grid, 84),
+    ];
+    let mut measured = measure(&variants, subject, rounds)?.into_iter();
+    Ok(variants.map(|_| measured.next().expect("one is measured for each variant")))
+}
+
+/// More than this, and settings within a tenth of each other cannot be told apart.
+const NOISY: f64 = 0.1;
+
+/// How much equal work differs, by the shot as it is, measured twice.
+fn noise(compared: &[Measured; 6]) -> Noise {
+    let [one, other, ..] = compared;
+    let mut spreads: Vec<f64> = compared
+        .iter()
+        .map(|measured| {
+            let frame = measured.frame();
+            (frame.greatest - frame.least) / frame.median
+        })
+        .collect();
+    spreads.sort_by(f64::total_cmp);
+    let spread = median(&spreads);
+    let duplicate = other.frame().median / one.frame().median;
+    Noise {
+        spread,
+        duplicate,
+        too_noisy: spread.max((duplicate - 1.0).abs()) > NOISY,
+    }
+}
+
+fn phases(measured: &Measured) -> Vec<PhaseTime> {
+    let seconds: Vec<f64> = (0..PHASES.len())
+        .map(|i| measured.phase(i).median)
+        .collect();
+    let all: f64 = seconds.iter().sum();
+    PHASES
+        .iter()
+        .zip(&seconds)
+        .map(|((phase, what), &seconds)| PhaseTime {
+            phase,
+            seconds,
+            share: seconds / all,
+            what,
+        })
+        .collect()
+}
+
+/// The processor's model, where the system tells.
+fn processor() -> Option<String> {
+    let text = std::fs::read_to_string("/proc/cpuinfo").ok()?;
+    let line = text.lines().find(|line| line.starts_with("model name"))?;
+    Some(line.split_once(':')?.1.trim().to_owned())
+}

@@ -1,10 +1,10 @@
 //! Direct light on a surface: lamps on the past light cone of the surface event, in the surface's
 //! rest frame.
 
-use super::clock::timed;
+use super::clock::timed_shadow;
 use super::stage::RestRay;
 use super::surface::Place;
-use super::{Lit, Phase, Tracer};
+use super::{Lit, Tracer};
 use crate::relativity::{Event, light_arriving};
 use crate::scene::{Light, LightShape, Material};
 use glam::DVec3;
@@ -53,7 +53,7 @@ fn light_on(
         return None;
     }
     let shaded = || in_shadow(tracer, surface, light, &incoming);
-    if tracer.shadows && timed(tracer.clock, Phase::Shadow, shaded) {
+    if tracer.shadows && timed_shadow(tracer.clock, shaded) {
         return None;
     }
     let irradiance = incoming.falloff * cos;

@@ -1,0 +1,113 @@
+//! `restframe study`.
+
+use super::render::{check_scale, pool, warn};
+use super::{Failed, StudyArguments, failed, mistaken, misused, print, say};
+use crate::plan;
+use crate::queue::{FrameList, Prepared, Request, options, write_atomically};
+use crate::render::{Options, motion_mistake};
+use crate::study::{self, StudyError, report};
+use std::path::{Path, PathBuf};
+
+/// Most pixels of an image studied, unless asked for: one setting of most knobs takes a second or
+/// less.
+const PIXELS: f64 = 640.0 * 360.0;
+/// Most samples a pixel, unless asked for.
+const SAMPLES: u32 = 4;
+
+/// Studies one image and writes the report.
+pub(super) fn run(arguments: &StudyArguments) -> Result<(), Failed> {
+    pool(arguments.threads)?.install(|| {
+        let prepared = Prepared::read(&arguments.shot).map_err(|m| mistaken(&m))?;
+        warn(&prepared);
+        let frame = frame(&prepared, arguments.frame)?;
+        let options = size(&prepared, arguments)?;
+        let folder = arguments.out.join(prepared.stem());
+        let scratch = scratch(&folder)?;
+        let request = study::Request {
+            frame,
+            options,
+            repeats: arguments.repeats,
+            scratch: scratch.path().to_owned(),
+        };
+        let found = study::study(&prepared, &request, &|news| {
+            say(&format!("studying {news}"))
+        })
+        .map_err(|error| match error {
+            StudyError::Mistakes(mistakes) => mistaken(&mistakes),
+            error => failed(&error.to_string()),
+        })?;
+        if found.noise.too_noisy {
+            say("warning: the machine was too busy: times of equal work differ by more than 10 %");
+        }
+        let json = report::json(&found);
+        write(&folder.join("study.html"), &report::html(&found))?;
+        write(&folder.join("study.csv"), &report::csv(&found))?;
+        write(&folder.join("study.json"), &json)?;
+        if arguments.json {
+            print(&json)
+        } else {
+            print(&folder.join("study.html").display().to_string())
+        }
+    })
+}
+
+/// A folder for files that nobody reads, on the disk that images go to.
+fn scratch(folder: &Path) -> Result<tempfile::TempDir, Failed> {
+    std::fs::create_dir_all(folder)
+        .and_then(|()| tempfile::tempdir_in(folder))
+        .map_err(|error| {
+            failed(&format!(
+                "cannot make {}: {error}; name another folder with --out",
+                folder.display()
+            ))
+        })
+}
+
+fn write(file: &Path, text: &str) -> Result<(), Failed> {
+    write_atomically(file, text.as_bytes()).map_err(|error| failed(&error.to_string()))
+}
+
+/// The frame asked for, or the last of those that call for most effects.
+fn frame(prepared: &Prepared, asked: Option<u32>) -> Result<u32, Failed> {
+    let shot = &prepared.shot;
+    let frames = shot.shot.frames;
+    if let Some(frame) = asked {
+        return if (1..=frames).contains(&frame) {
+            Ok(frame)
+        } else {
+            Err(misused(&format!(
+                "the shot has frames 1 to {frames}, not {frame}"
+            )))
+        };
+    }
+    let mut most = (0, 1);
+    for frame in 1..=frames {
+        let called = plan::called(shot, frame, &shot.effects)
+            .map_err(|error| mistaken(&motion_mistake(shot, &error)))?;
+        most = most.max((called.count(), frame));
+    }
+    Ok(most.1)
+}
+
+/// Size and samples asked for, or such as take not too long.
+fn size(prepared: &Prepared, arguments: &StudyArguments) -> Result<Options, Failed> {
+    let shot = &prepared.shot;
+    let [width, height] = shot.image.size.map(f64::from);
+    let scale = arguments
+        .scale
+        .unwrap_or_else(|| (PIXELS / (width * height)).sqrt().min(1.0));
+    let samples = arguments
+        .samples
+        .unwrap_or_else(|| shot.image.samples.min(SAMPLES));
+    let request = Request {
+        out: PathBuf::new(),
+        frames: FrameList::all(),
+        scale,
+        samples: Some(samples),
+    };
+    check_scale(prepared, &request)?;
+    Ok(Options {
+        layers: Vec::new(),
+        ..options(shot, &request)
+    })
+}

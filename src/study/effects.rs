@@ -1,0 +1,175 @@
+//! What each effect costs: the image with it against the image without, turn by turn.
+
+use super::findings::EffectCost;
+use super::rounds::{median, timing};
+use super::subject::{Bodies, Subject, Variant};
+use super::{Start, StudyError};
+use crate::plan::Called;
+use crate::scene::{Library, Scene};
+use crate::shot::{Beaming, Effects, Shot, Switch};
+use crate::trace::Stage;
+use std::sync::Arc;
+
+/// An effect: its name, whether the image calls for it, how a shot is without it, what the 1990
+/// paper says of it.
+struct Effect {
+    name: &'static str,
+    called: bool,
+    off: fn(&mut Effects),
+    paper: Option<&'static str>,
+}
+
+fn effects(called: &Called) -> [Effect; 7] {
+    let effect = |name, called, off| Effect {
+        name,
+        called,
+        off,
+        paper: None,
+    };
+    [
+        Effect {
+            paper: Some("under 5 %"),
+            ..effect("geometry", called.geometry, |e| e.geometry = Switch::Off)
+        },
+        Effect {
+            paper: Some("about 2 % by splines, over 100 % by lines"),
+            ..effect("doppler", called.doppler, |e| e.doppler = Switch::Off)
+        },
+        effect("beaming", called.beaming != Beaming::Off, |e| {
+            e.beaming = Beaming::Off;
+        }),
+        effect("thermal", called.thermal, |e| e.thermal = Switch::Off),
+        effect("shadows", called.shadows, |e| e.shadows = Switch::Off),
+        effect("mirror", called.mirror, |e| e.bounces = 0),
+        effect("refraction", called.refraction, |e| e.bounces = 0),
+    ]
+}
+
+/// Costs of all effects, each timed by `rounds` pairs.
+pub(super) fn costs(
+    start: &Start<'_>,
+    library: &Library,
+    called: &Called,
+    subject: &Subject,
+    rounds: u32,
+) -> Result<Vec<EffectCost>, StudyError> {
+    let on = start.as_it_is();
+    let mut costs = Vec::new();
+    for effect in effects(called) {
+        let off = Variant {
+            shot: without(start.shot, effect.off),
+            ..on.clone()
+        };
+        let why = called
+            .because
+            .iter()
+            .find(|reason| reason.effect == effect.name)
+            .map_or_else(String::new, |reason| reason.why.clone());
+        costs.push(EffectCost {
+            effect: effect.name,
+            called: effect.called,
+            why,
+            paper: effect.paper,
+            ..cost([&on, &off], subject, rounds)?
+        });
+    }
+    costs.push(second_worldline(start, library, subject, rounds)?);
+    Ok(costs)
+}
+
+/// A shot with an effect turned off, in its splices too.
+fn without(shot: &Shot, off: fn(&mut Effects)) -> Shot {
+    let mut shot = shot.clone();
+    for splice in &mut shot.splice {
+        let mut effects = crate::render::spliced(&shot.effects, splice);
+        off(&mut effects);
+        let over = &mut splice.effects;
+        over.geometry = Some(effects.geometry);
+        over.doppler = Some(effects.doppler);
+        over.beaming = Some(effects.beaming);
+        over.thermal = Some(effects.thermal);
+        over.shadows = Some(effects.shadows);
+        over.bounces = Some(effects.bounces);
+    }
+    off(&mut shot.effects);
+    shot
+}
+
+/// Bodies and lamps on worldlines of their own, against all of them on that of the first model.
+fn second_worldline(
+    start: &Start<'_>,
+    library: &Library,
+    subject: &Subject,
+    rounds: u32,
+) -> Result<EffectCost, StudyError> {
+    let mut shot = start.shot.clone();
+    let first = shot.model.first().and_then(|model| model.worldline.clone());
+    let mut others = 0;
+    for worldline in (shot.model.iter_mut().map(|model| &mut model.worldline))
+        .chain(shot.light.iter_mut().map(|light| &mut light.worldline))
+    {
+        others += u32::from(*worldline != first);
+        worldline.clone_from(&first);
+    }
+    let on = start.as_it_is();
+    let called = others > 0;
+    let off = if called {
+        let scene = Scene::resolve(&shot, library, start.frame, None)?;
+        let stage = Stage::with_precision(&scene.geometry, None, shot.accuracy.tracing);
+        Variant {
+            shot,
+            bodies: Arc::new(Bodies { scene, stage }),
+            ..on.clone()
+        }
+    } else {
+        on.clone()
+    };
+    let why = match others {
+        0 => "all bodies and lamps share one".to_owned(),
+        1 => "1 model or lamp is on another than the first model".to_owned(),
+        n => format!("{n} models and lamps are on others than the first model"),
+    };
+    Ok(EffectCost {
+        effect: "second worldline",
+        called,
+        why,
+        ..cost([&on, &off], subject, rounds)?
+    })
+}
+
+/// Times of two variants, rendered in turn, and what the first costs over the second.
+fn cost(
+    [on, off]: [&Variant; 2],
+    subject: &Subject,
+    rounds: u32,
+) -> Result<EffectCost, StudyError> {
+    let (mut with, mut without) = (Vec::new(), Vec::new());
+    for round in 0..rounds {
+        // Whoever comes second finds warmer caches: turn about.
+        let pair = if round % 2 == 0 {
+            [(on, &mut with), (off, &mut without)]
+        } else {
+            [(off, &mut without), (on, &mut with)]
+        };
+        for (variant, seconds) in pair {
+            seconds.push(variant.run(subject)?.seconds);
+        }
+    }
+    let mut ratios: Vec<f64> = with
+        .iter()
+        .zip(&without)
+        .map(|(a, b)| a / b - 1.0)
+        .collect();
+    ratios.sort_by(f64::total_cmp);
+    let quarter = ratios.len() / 4;
+    Ok(EffectCost {
+        effect: "",
+        called: false,
+        why: String::new(),
+        cost: median(&ratios),
+        spread: (ratios[ratios.len() - 1 - quarter] - ratios[quarter]) / 2.0,
+        on: timing(with),
+        off: timing(without),
+        paper: None,
+    })
+}

@@ -1,0 +1,55 @@
+//! How far an image is from its reference: by light and by eye.
+
+use super::StudyError;
+use super::findings::{Errors, Percentiles};
+use crate::film::compare::{Comparison, delta_e_2000, lab_from_xyz, relative_rmse};
+use crate::film::{Channels, Developed, Film, develop};
+use crate::render::development;
+use crate::shot::Shot;
+use crate::spectrum::color_space::{D65_XYZ, XYZ_FROM_RGB, apply};
+use rayon::prelude::*;
+
+/// Errors of a film against another of the same size, both developed at `stops`.
+pub(super) fn errors(
+    shot: &Shot,
+    film: &Film,
+    reference: &Film,
+    stops: f64,
+) -> Result<Errors, StudyError> {
+    let development = development(shot, stops);
+    let color = film.channels == Channels::Xyz;
+    let [one, other] = [film, reference].map(|film| develop(film, &development));
+    Ok(Errors {
+        radiance: relative_rmse(&film.xyz, &reference.xyz)?,
+        delta_e: color.then(|| color_differences(&one, &other)),
+        ..Errors::default()
+    })
+}
+
+/// CIEDE2000 of the pixels of two developed films as a display shows them: what is beyond its range
+/// is cut off, nothing is rounded.
+pub(super) fn color_differences(one: &Developed, other: &Developed) -> Percentiles {
+    let lab = |rgb: &[f32; 3]| {
+        let shown = rgb.map(|value| f64::from(value).clamp(0.0, 1.0));
+        lab_from_xyz(apply(&XYZ_FROM_RGB, shown), D65_XYZ)
+    };
+    let differences = one
+        .linear
+        .par_iter()
+        .zip(&other.linear)
+        .map(|(a, b)| {
+            if a == b {
+                0.0
+            } else {
+                delta_e_2000(lab(a), lab(b))
+            }
+        })
+        .collect();
+    percentiles(differences)
+}
+
+/// Sums up values of all pixels.
+pub(super) fn percentiles(values: Vec<f64>) -> Percentiles {
+    let Comparison { mean, p99, worst } = Comparison::of(values);
+    Percentiles { mean, p99, worst }
+}

@@ -1,0 +1,93 @@
+//! Precision of rays, and triangles of spheres.
+
+use super::Knob;
+use crate::scene::Scene;
+use crate::shot::Precision;
+use crate::study::Start;
+use crate::study::spheres;
+use crate::study::subject::{Bodies, Variant};
+use crate::trace::Stage;
+use std::sync::Arc;
+
+/// Subdivisions of an icosahedron: 80 to 20480 triangles.
+const LEVELS: [u32; 5] = [1, 2, 3, 4, 5];
+const FINEST_LEVEL: u32 = 7;
+
+/// The knob `accuracy.tracing`.
+pub(super) fn tracing(start: &Start<'_>) -> Knob {
+    let mut knob = Knob::new(
+        "accuracy.tracing",
+        "traverse",
+        "precision of rays and triangles in rest frames",
+    );
+    knob.reference = "f64";
+    knob.geometry = true;
+    let variant = |precision: Precision, name: &str| {
+        let mut shot = start.shot.clone();
+        shot.accuracy.tracing = precision;
+        let bodies = if precision == start.shot.accuracy.tracing {
+            Arc::clone(&start.bodies)
+        } else {
+            let scene = start.bodies.scene.clone();
+            let stage = Stage::with_precision(&scene.geometry, None, precision);
+            Arc::new(Bodies { scene, stage })
+        };
+        Variant {
+            family: "tracing".to_owned(),
+            current: precision == start.shot.accuracy.tracing,
+            shot,
+            bodies,
+            ..start.variant(name.to_owned(), Some(format!("tracing = \"{name}\"")))
+        }
+    };
+    knob.variants = vec![
+        variant(Precision::F32, "f32"),
+        variant(Precision::F64, "f64"),
+    ];
+    knob.references = vec![variant(Precision::F64, "f64")];
+    knob
+}
+
+/// How finely the shot's spheres are made of triangles.
+pub(super) fn tessellation(start: &Start<'_>) -> Knob {
+    let mut knob = Knob::new(
+        "tessellation",
+        "traverse",
+        "triangles of which each sphere among the shot's meshes is made",
+    );
+    knob.reference = "spheres of 327680 triangles";
+    knob.geometry = true;
+    let bodies = |level: u32| {
+        let scene = &start.bodies.scene;
+        let geometry = Arc::new(spheres::tessellated(&scene.geometry, level)?);
+        let stage = Stage::with_precision(&geometry, None, start.shot.accuracy.tracing);
+        let scene = Scene {
+            geometry,
+            ..scene.clone()
+        };
+        Some(Arc::new(Bodies { scene, stage }))
+    };
+    let variant = |level: u32| {
+        let triangles = 20 * 4_u32.pow(level);
+        Some(Variant {
+            family: "subdivided icosahedron".to_owned(),
+            bodies: bodies(level)?,
+            ..start.variant(format!("{triangles} triangles a sphere"), None)
+        })
+    };
+    let Some(finest) = variant(FINEST_LEVEL) else {
+        knob.note = Some(
+            "no mesh of the shot is a sphere: what is flat is exact with any number of triangles, \
+             and of other shapes nobody knows what they stand for"
+                .to_owned(),
+        );
+        return knob;
+    };
+    knob.references = vec![finest];
+    knob.variants = LEVELS.into_iter().filter_map(variant).collect();
+    knob.variants.push(Variant {
+        family: "as in the file".to_owned(),
+        ..start.as_it_is()
+    });
+    knob
+}

@@ -1,0 +1,94 @@
+//! How far light is followed through mirrors and glass.
+
+use super::Knob;
+use crate::plan::Called;
+use crate::study::Start;
+use crate::study::subject::Variant;
+
+const BOUNCES: [u32; 7] = [0, 1, 2, 3, 4, 8, 16];
+const CUTOFFS: [f64; 6] = [0.3, 0.1, 0.01, 1e-3, 1e-4, 1e-6];
+/// Most bounces that a shot may ask for.
+const ALL_BOUNCES: u32 = 64;
+
+/// The knob `effects.bounces`.
+pub(super) fn bounces(start: &Start<'_>, called: &Called) -> Knob {
+    let mut knob = Knob::new(
+        "effects.bounces",
+        "surfaces",
+        "how many mirrors and faces of glass light is followed through",
+    );
+    knob.reference = "64 of them, nothing cut off";
+    let variant = |bounces: u32, cutoff: f64| {
+        let mut shot = start.shot.clone();
+        shot.effects.bounces = bounces;
+        for splice in &mut shot.splice {
+            splice.effects.bounces = splice.effects.bounces.map(|own| own.min(bounces));
+        }
+        shot.accuracy.cutoff = cutoff;
+        Variant {
+            family: "bounces".to_owned(),
+            current: bounces == start.shot.effects.bounces,
+            shot,
+            ..start.variant(
+                format!("{bounces} bounces"),
+                Some(format!("bounces = {bounces}")),
+            )
+        }
+    };
+    if no_branches(&mut knob, called) {
+        return knob;
+    }
+    let (own, cutoff) = (start.shot.effects.bounces, start.shot.accuracy.cutoff);
+    let mut counts = BOUNCES.to_vec();
+    if !counts.contains(&own) {
+        counts.push(own);
+        counts.sort_unstable();
+    }
+    knob.variants = counts.into_iter().map(|n| variant(n, cutoff)).collect();
+    knob.references = vec![variant(ALL_BOUNCES, 0.0)];
+    knob
+}
+
+/// The knob `accuracy.cutoff`.
+pub(super) fn cutoff(start: &Start<'_>, called: &Called) -> Knob {
+    let mut knob = Knob::new(
+        "accuracy.cutoff",
+        "surfaces",
+        "the share of mirrored and refracted light that is not followed",
+    );
+    knob.reference = "the same number of bounces, nothing cut off";
+    if no_branches(&mut knob, called) {
+        return knob;
+    }
+    let own = start.shot.accuracy.cutoff;
+    let variant = |cutoff: f64| {
+        let mut shot = start.shot.clone();
+        shot.accuracy.cutoff = cutoff;
+        Variant {
+            family: "cutoff".to_owned(),
+            current: cutoff == own,
+            shot,
+            ..start.variant(
+                format!("cutoff {cutoff:?}"),
+                Some(format!("cutoff = {cutoff:?}")),
+            )
+        }
+    };
+    let mut shares = CUTOFFS.to_vec();
+    if !shares.contains(&own) && own > 0.0 {
+        shares.push(own);
+        shares.sort_by(|a, b| b.total_cmp(a));
+    }
+    knob.variants = shares.into_iter().map(variant).collect();
+    knob.references = vec![variant(0.0)];
+    knob
+}
+
+/// Whether the image has no mirror and no glass, which is noted.
+fn no_branches(knob: &mut Knob, called: &Called) -> bool {
+    let none = !called.mirror && !called.refraction;
+    if none {
+        knob.note = Some("the image calls for no mirror and no glass".to_owned());
+    }
+    none
+}

@@ -1,0 +1,62 @@
+//! The knobs, and the settings of each that are compared. What an image leaves nothing to choose
+//! about has none.
+
+mod bodies;
+mod mirrors;
+mod pixels;
+mod spectra;
+
+use super::Start;
+use super::subject::Variant;
+use crate::plan::Called;
+
+pub(super) use spectra::without_shift;
+
+/// A knob, before anything is measured.
+pub(super) struct Knob {
+    pub(super) key: &'static str,
+    pub(super) what: &'static str,
+    pub(super) phase: &'static str,
+    pub(super) reference: &'static str,
+    pub(super) note: Option<String>,
+    pub(super) variants: Vec<Variant>,
+    /// By family, or one for all.
+    pub(super) references: Vec<Variant>,
+    /// Whether surfaces move.
+    pub(super) geometry: bool,
+    /// Whether it is the files that differ.
+    pub(super) files: bool,
+}
+
+impl Knob {
+    pub(super) fn new(key: &'static str, phase: &'static str, what: &'static str) -> Self {
+        Self {
+            key,
+            what,
+            phase,
+            reference: "",
+            note: None,
+            variants: Vec::new(),
+            references: Vec::new(),
+            geometry: false,
+            files: false,
+        }
+    }
+
+    /// Which of its references a variant is measured against.
+    pub(super) fn reference_of(&self, variant: &Variant) -> usize {
+        let same = |reference: &Variant| reference.family == variant.family;
+        self.references.iter().position(same).unwrap_or(0)
+    }
+}
+
+/// All knobs, in the order of a report.
+pub(super) const KNOBS: [fn(&Start<'_>, &Called) -> Knob; 7] = [
+    spectra::spectra,
+    |start, _| pixels::samples(start),
+    mirrors::bounces,
+    mirrors::cutoff,
+    |start, _| bodies::tracing(start),
+    |start, _| bodies::tessellation(start),
+    |start, _| pixels::output(start),
+];

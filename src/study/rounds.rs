@@ -1,0 +1,115 @@
+//! Variants timed against each other: in rounds, so that a machine that slows down meanwhile does
+//! so for all of them.
+
+use super::StudyError;
+use super::findings::Timing;
+use super::subject::{Run, Subject, Variant};
+
+/// A variant that takes longer than this, seconds, is rendered in the first [`FEW`] rounds only.
+const LONG: f64 = 2.0;
+const FEW: u32 = 3;
+/// One that takes longer than this, in the first round only.
+const VERY_LONG: f64 = 20.0;
+
+/// All renders of a variant.
+pub(super) struct Measured {
+    pub(super) seconds: Vec<f64>,
+    /// By round and phase.
+    pub(super) phases: Vec<[f64; 9]>,
+    pub(super) memory_mib: Option<f64>,
+    /// The first render's pixels and files; every other has the same.
+    pub(super) first: Run,
+}
+
+impl Measured {
+    /// Time of the whole image.
+    pub(super) fn frame(&self) -> Timing {
+        timing(self.seconds.clone())
+    }
+
+    /// Time of a phase.
+    pub(super) fn phase(&self, phase: usize) -> Timing {
+        timing(self.phases.iter().map(|phases| phases[phase]).collect())
+    }
+
+    fn add(&mut self, run: &Run) {
+        self.seconds.push(run.seconds);
+        self.phases.push(run.phases);
+        self.memory_mib = match (self.memory_mib, run.memory_mib) {
+            (Some(one), Some(other)) => Some(f64::min(one, other)),
+            (one, other) => one.or(other),
+        };
+    }
+}
+
+/// Renders every variant `rounds` times, round by round.
+pub(super) fn measure(
+    variants: &[Variant],
+    subject: &Subject,
+    rounds: u32,
+) -> Result<Vec<Measured>, StudyError> {
+    let mut measured = Vec::new();
+    for variant in variants {
+        measured.push(once(variant, subject)?);
+    }
+    for round in 1..rounds {
+        for (variant, measured) in variants.iter().zip(&mut measured) {
+            let most = match measured.seconds[0] {
+                seconds if seconds > VERY_LONG => 1,
+                seconds if seconds > LONG => FEW,
+                _ => rounds,
+            };
+            if round < most {
+                measured.add(&variant.run(subject)?);
+            }
+        }
+    }
+    Ok(measured)
+}
+
+/// Renders a variant once.
+pub(super) fn once(variant: &Variant, subject: &Subject) -> Result<Measured, StudyError> {
+    let first = variant.run(subject)?;
+    Ok(Measured {
+        seconds: vec![first.seconds],
+        phases: vec![first.phases],
+        memory_mib: first.memory_mib,
+        first,
+    })
+}
+
+/// Three numbers of some times; all 0 if there are none.
+pub(super) fn timing(mut seconds: Vec<f64>) -> Timing {
+    seconds.sort_by(f64::total_cmp);
+    let (Some(&least), Some(&greatest)) = (seconds.first(), seconds.last()) else {
+        return Timing::default();
+    };
+    Timing {
+        median: median(&seconds),
+        least,
+        greatest,
+    }
+}
+
+/// The middle of ascending numbers, of which there is at least one.
+pub(super) fn median(ascending: &[f64]) -> f64 {
+    let half = ascending.len() / 2;
+    if ascending.len().is_multiple_of(2) {
+        (ascending[half - 1] + ascending[half]) / 2.0
+    } else {
+        ascending[half]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_median_is_the_middle_one_or_between_the_middle_two() {
+        let of = |seconds: &[f64]| timing(seconds.to_vec());
+        assert_eq!(of(&[3.0, 1.0, 2.0]).median, 2.0);
+        let four = of(&[4.0, 1.0, 2.0, 3.0]);
+        assert_eq!((four.least, four.median, four.greatest), (1.0, 2.5, 4.0));
+    }
+}

@@ -1,0 +1,155 @@
+//! One image of a shot, rendered as every other of its images is, with seconds by phase.
+
+use super::StudyError;
+use super::memory::{forget_peak, peak_mib};
+use crate::film::{Film, develop};
+use crate::queue::{Exposing, Pictures, pictures, write_atomically};
+use crate::render::{Options, Profile, development, motion_mistake, render_profiled};
+use crate::scene::Scene;
+use crate::shot::Shot;
+use crate::trace::Stage;
+use std::path::PathBuf;
+use std::sync::Arc;
+use std::time::Instant;
+
+/// A scene and its bodies, ready for rays.
+pub(super) struct Bodies {
+    pub(super) scene: Scene,
+    pub(super) stage: Stage,
+}
+
+/// The image of which variants are rendered.
+pub(super) struct Subject {
+    /// Number of the frame.
+    pub(super) frame: u32,
+    /// Exposure, stops.
+    pub(super) stops: f64,
+    /// Folder that files are written to, and nobody reads.
+    pub(super) scratch: PathBuf,
+}
+
+impl Subject {
+    /// The subject of a shot.
+    pub(super) fn new(shot: &Shot, frame: u32, exposing: &Exposing, scratch: PathBuf) -> Self {
+        Self {
+            frame,
+            stops: exposing.stops(frame, shot.shot.frames),
+            scratch,
+        }
+    }
+}
+
+/// The image at one setting of one knob.
+#[derive(Clone)]
+pub(super) struct Variant {
+    /// In words.
+    pub(super) setting: String,
+    /// Those on one curve.
+    pub(super) family: String,
+    /// What to write into the shot.
+    pub(super) toml: Option<String>,
+    /// Whether the shot has it.
+    pub(super) current: bool,
+    pub(super) shot: Shot,
+    pub(super) bodies: Arc<Bodies>,
+    pub(super) options: Options,
+}
+
+/// Phases of an image in the order in which they happen, with what happens in them.
+pub(super) const PHASES: [(&str, &str); 9] = [
+    (
+        "prepare",
+        "curves, tables and links between worldlines, once an image",
+    ),
+    ("aim", "directions of the samples' rays in the camera"),
+    ("boost", "camera rays to the rest frame of each worldline"),
+    ("traverse", "camera rays through the bodies there"),
+    ("shadow", "rays from surfaces to lamps, with their boosts"),
+    (
+        "surfaces",
+        "surface events, lamps as seen from there, mirrors and glass",
+    ),
+    (
+        "shade",
+        "spectra shifted, multiplied and summed to color, and the pixel's mean",
+    ),
+    ("develop", "exposure and color"),
+    ("write", "files encoded and written to the disk"),
+];
+
+/// Place of a phase in [`PHASES`].
+pub(super) fn phase(name: &str) -> usize {
+    let place = PHASES.iter().position(|(phase, _)| *phase == name);
+    place.expect("only phases of the list are asked for")
+}
+
+/// One render of a variant.
+pub(super) struct Run {
+    /// Wall clock of the whole image.
+    pub(super) seconds: f64,
+    /// By [`PHASES`], summed over threads.
+    pub(super) phases: [f64; 9],
+    pub(super) memory_mib: Option<f64>,
+    pub(super) film: Film,
+    /// Extension and content of its files.
+    pub(super) files: Vec<(&'static str, Vec<u8>)>,
+}
+
+impl Variant {
+    /// Renders it once.
+    pub(super) fn run(&self, subject: &Subject) -> Result<Run, StudyError> {
+        let counts = forget_peak();
+        let profile = Profile::default();
+        let (scene, stage) = (&self.bodies.scene, &self.bodies.stage);
+        let begun = Instant::now();
+        let film = render_profiled(
+            &self.shot,
+            subject.frame,
+            scene,
+            stage,
+            &self.options,
+            &|_| (),
+            Some(&profile),
+        )
+        .map_err(|error| motion_mistake(&self.shot, &error))?;
+        let rendered = Instant::now();
+        let Pictures { files, .. } = pictures(
+            &self.shot,
+            subject.frame,
+            scene,
+            &film,
+            subject.stops,
+            self.options.samples,
+        )?;
+        for (extension, bytes) in &files {
+            let name = subject.scratch.join("image").with_extension(extension);
+            write_atomically(&name, bytes)?;
+        }
+        let ended = Instant::now();
+        let memory_mib = peak_mib().filter(|_| counts);
+        let seconds = profile.seconds();
+        // Once more, for its time alone: it is part of making the files.
+        let again = Instant::now();
+        let developed = develop(&film, &development(&self.shot, subject.stops));
+        let developing = again.elapsed().as_secs_f64();
+        drop(developed);
+        let writing = (ended - rendered).as_secs_f64() - developing;
+        Ok(Run {
+            seconds: (ended - begun).as_secs_f64(),
+            phases: [
+                seconds.prepare,
+                seconds.aim,
+                seconds.boost,
+                seconds.traverse,
+                seconds.shadow,
+                seconds.surfaces,
+                seconds.shade,
+                developing,
+                writing.max(0.0),
+            ],
+            memory_mib,
+            film,
+            files,
+        })
+    }
+}

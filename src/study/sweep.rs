@@ -1,0 +1,135 @@
+//! One knob measured: times, memory and errors of its settings.
+
+use super::displacement::displacement;
+use super::errors::{color_differences, errors};
+use super::findings::{Errors, Point, Sweep};
+use super::knobs::Knob;
+use super::rounds::{Measured, measure, once};
+use super::subject::{Subject, Variant, phase};
+use super::{StudyError, ranking};
+use crate::film::{Developed, Film, develop};
+use crate::render::development;
+use crate::spectrum::color_space;
+
+/// Measures a knob's settings in rounds; `noise` is the part by which times of equal work differ.
+pub(super) fn sweep(
+    knob: &Knob,
+    subject: &Subject,
+    rounds: u32,
+    noise: f64,
+) -> Result<Sweep, StudyError> {
+    let touched = phase(knob.phase);
+    let references = knob
+        .references
+        .iter()
+        .map(|variant| once(variant, subject))
+        .collect::<Result<Vec<_>, _>>()?;
+    let measured = measure(&knob.variants, subject, rounds)?;
+    let mut points = Vec::new();
+    for (variant, own) in knob.variants.iter().zip(&measured) {
+        let number = knob.reference_of(variant);
+        let reference = knob.references.get(number).zip(references.get(number));
+        let errors = if knob.files {
+            file_errors(variant, own, subject)?
+        } else {
+            match reference {
+                Some((exact, reference)) => {
+                    compared(knob, [variant, exact], [own, reference], subject)?
+                }
+                None => Errors::default(),
+            }
+        };
+        points.push(point(knob, variant, own, touched, Some(errors)));
+    }
+    ranking::mark_pareto(&mut points, noise);
+    let halving = ranking::halvings(&points);
+    for (variant, own) in knob.references.iter().zip(&references) {
+        if points.iter().any(|point| point.setting == variant.setting) {
+            continue;
+        }
+        points.push(point(knob, variant, own, touched, None));
+    }
+    Ok(Sweep {
+        knob: knob.key.to_owned(),
+        what: knob.what.to_owned(),
+        phase: knob.phase,
+        reference: knob.reference.to_owned(),
+        points,
+        note: knob.note.clone(),
+        halving,
+    })
+}
+
+fn point(
+    knob: &Knob,
+    variant: &Variant,
+    measured: &Measured,
+    touched: usize,
+    errors: Option<Errors>,
+) -> Point {
+    let bytes = measured.first.files.iter().map(|(_, b)| b.len() as u64);
+    Point {
+        setting: variant.setting.clone(),
+        family: variant.family.clone(),
+        toml: variant.toml.clone(),
+        current: variant.current,
+        frame: measured.frame(),
+        phase: measured.phase(touched),
+        memory_mib: measured.memory_mib,
+        file_bytes: knob.files.then(|| bytes.sum()),
+        errors,
+        pareto: false,
+    }
+}
+
+/// Errors of a setting against the reference's pixels.
+fn compared(
+    knob: &Knob,
+    variants: [&Variant; 2],
+    measured: [&Measured; 2],
+    subject: &Subject,
+) -> Result<Errors, StudyError> {
+    let [variant, exact] = variants;
+    let [film, reference] = measured.map(|measured| &measured.first.film);
+    let mut errors = errors(&variant.shot, film, reference, subject.stops)?;
+    if knob.geometry {
+        let (displaced, mistaken) = displacement(exact, variant, subject)?;
+        errors.displacement = Some(displaced);
+        errors.mistaken = Some(mistaken);
+    }
+    Ok(errors)
+}
+
+/// What is lost in a file: the picture read from it against the film.
+fn file_errors(
+    variant: &Variant,
+    measured: &Measured,
+    subject: &Subject,
+) -> Result<Errors, StudyError> {
+    let film = &measured.first.film;
+    let exact = develop(film, &development(&variant.shot, subject.stops));
+    let Some((extension, bytes)) = measured.first.files.first() else {
+        return Ok(Errors::default());
+    };
+    let read = image::load_from_memory(bytes)?;
+    let linear = if *extension == "png" {
+        let value = |byte: u8| color_space::decode(f64::from(byte) / 255.0) as f32;
+        read.to_rgb8().pixels().map(|p| p.0.map(value)).collect()
+    } else {
+        read.to_rgb32f().pixels().map(|p| p.0).collect()
+    };
+    let read = Developed {
+        linear,
+        saturated: 0,
+    };
+    let as_film = |developed: &Developed| Film {
+        xyz: developed.linear.clone(),
+        ..Film::default()
+    };
+    let light = crate::film::compare::relative_rmse(&as_film(&read).xyz, &as_film(&exact).xyz)?;
+    Ok(Errors {
+        radiance: light,
+        delta_e: Some(color_differences(&read, &exact)),
+        ..Errors::default()
+    })
+}
