@@ -10,7 +10,7 @@ fn main() {
 }
 
 /// Speeds from slow to γ = 10⁶: cost should not depend on them.
-const LORENTZ_FACTORS: [f64; 4] = [1.000_000_1, 1.1547, 100.0, 1e6];
+const LORENTZ_FACTORS: [f64; 5] = [1.000_000_1, 1.1547, 10.0, 100.0, 1e6];
 
 fn directions() -> Vec<DVec3> {
     (0..2048)

@@ -1,8 +1,9 @@
 //! Picture files read back by generic readers, and their bytes written twice.
 
-use exr::prelude::{AttributeValue, ReadChannels, ReadLayers, Text, Vec2};
+use exr::prelude::{AttributeValue, FlatSamples, ReadChannels, ReadLayers, Text, Vec2};
+use restframe::film::exr::{self as exr_file, Depth};
 use restframe::film::{
-    Channels, Developed, EncodeError, Layers, Metadata, SOFTWARE, exr as exr_file, png as png_file,
+    Channels, Developed, EncodeError, Layers, Metadata, SOFTWARE, png as png_file,
 };
 use std::io::Cursor;
 
@@ -63,7 +64,39 @@ fn metadata() -> Metadata {
 }
 
 fn exr_bytes(metadata: &Metadata) -> Vec<u8> {
-    exr_file::encode(WIDTH, HEIGHT, &developed(), &layers(), metadata).expect("encodes")
+    exr_bytes_of(Depth::Float, metadata)
+}
+
+fn exr_bytes_of(depth: Depth, metadata: &Metadata) -> Vec<u8> {
+    exr_file::encode(WIDTH, HEIGHT, &developed(), depth, &layers(), metadata).expect("encodes")
+}
+
+/// Names, samples and size of an EXR's channels, read back.
+fn exr_channels(bytes: Vec<u8>) -> (Vec<(String, FlatSamples)>, Vec2<usize>) {
+    let image = exr::prelude::read()
+        .no_deep_data()
+        .largest_resolution_level()
+        .all_channels()
+        .first_valid_layer()
+        .all_attributes()
+        .from_buffered(Cursor::new(bytes))
+        .expect("reads");
+    let channels = image.layer_data.channel_data.list.into_iter();
+    let channels = channels.map(|channel| (channel.name.to_string(), channel.sample_data));
+    (channels.collect(), image.layer_data.size)
+}
+
+/// What was written to a channel.
+fn expected(name: &str) -> Vec<f32> {
+    match ["R", "G", "B"].iter().position(|&color| color == name) {
+        Some(index) => developed().linear.iter().map(|rgb| rgb[index]).collect(),
+        None => layers()
+            .named()
+            .find(|layer| layer.0 == name)
+            .expect("a layer")
+            .1
+            .to_vec(),
+    }
 }
 
 fn png_bytes(metadata: &Metadata) -> Vec<u8> {
@@ -73,19 +106,8 @@ fn png_bytes(metadata: &Metadata) -> Vec<u8> {
 
 #[test]
 fn an_exr_gives_back_every_float_under_its_channel() {
-    let image = exr::prelude::read()
-        .no_deep_data()
-        .largest_resolution_level()
-        .all_channels()
-        .first_valid_layer()
-        .all_attributes()
-        .from_buffered(Cursor::new(exr_bytes(&metadata())))
-        .expect("reads");
-    let channels = &image.layer_data.channel_data.list;
-    let names: Vec<String> = channels
-        .iter()
-        .map(|channel| channel.name.to_string())
-        .collect();
+    let (channels, size) = exr_channels(exr_bytes(&metadata()));
+    let names: Vec<&str> = channels.iter().map(|(name, _)| name.as_str()).collect();
     assert_eq!(
         names,
         [
@@ -98,24 +120,90 @@ fn an_exr_gives_back_every_float_under_its_channel() {
             "worldline"
         ]
     );
-    assert_eq!(image.layer_data.size, Vec2(WIDTH as usize, HEIGHT as usize));
-
-    let (developed, layers) = (developed(), layers());
-    let expected = |name: &str| -> Vec<f32> {
-        match ["R", "G", "B"].iter().position(|&color| color == name) {
-            Some(index) => developed.linear.iter().map(|rgb| rgb[index]).collect(),
-            None => layers
-                .named()
-                .find(|layer| layer.0 == name)
-                .expect("a layer")
-                .1
-                .to_vec(),
-        }
-    };
-    for (name, channel) in names.iter().zip(channels) {
-        let found: Vec<f32> = channel.sample_data.values_as_f32().collect();
+    assert_eq!(size, Vec2(WIDTH as usize, HEIGHT as usize));
+    for (name, samples) in &channels {
+        let found: Vec<f32> = samples.values_as_f32().collect();
         assert_eq!(found, expected(name), "{name}");
     }
+}
+
+#[test]
+fn a_half_exr_gives_back_colors_to_eleven_bits_and_layers_as_they_are() {
+    let (channels, _) = exr_channels(exr_bytes_of(Depth::Half, &metadata()));
+    for (name, samples) in channels {
+        let found: Vec<f32> = samples.values_as_f32().collect();
+        if name.len() > 1 {
+            assert!(matches!(samples, FlatSamples::F32(_)), "{name}");
+            assert_eq!(found, expected(&name), "{name}");
+            continue;
+        }
+        assert!(matches!(samples, FlatSamples::F16(_)), "{name}");
+        for (found, written) in found.into_iter().zip(expected(&name)) {
+            // IEEE 754 binary16: 11 bits of significand, nothing finer than 2⁻²⁴, nothing beyond
+            // 65504 = 2¹⁶ − 2⁵; rounded to nearest, hence half of the last digit.
+            let kept = f64::from(written).clamp(-65504.0, 65504.0);
+            let half_a_digit = (kept.abs() * 0.5_f64.powi(11)).max(0.5_f64.powi(25));
+            let error = (f64::from(found) - kept).abs();
+            assert!(
+                error <= half_a_digit,
+                "{name}: {written:e} became {found:e}"
+            );
+        }
+    }
+}
+
+#[test]
+fn what_a_half_cannot_hold_is_clamped_and_counted_once() {
+    let rim = [
+        65504.0_f32,
+        65505.0,
+        -65519.9,
+        65520.0,
+        1e38,
+        -65504.0,
+        f32::MAX, // clamped and counted when developed
+        6e-8,     // 2⁻²⁴ to nearest: the least there is
+        -2e-8,    // nearer to 0
+    ];
+    let developed = Developed {
+        linear: vec![
+            [rim[0], rim[1], rim[2]],
+            [rim[3], rim[4], rim[5]],
+            [rim[6], rim[7], rim[8]],
+        ],
+        saturated: 1,
+    };
+    assert_eq!(exr_file::clamped(&developed, Depth::Half), 4);
+    assert_eq!(exr_file::clamped(&developed, Depth::Float), 0);
+    let none = (Layers::default(), Metadata::default());
+    let bytes = exr_file::encode(3, 1, &developed, Depth::Half, &none.0, &none.1).expect("encodes");
+    let (channels, _) = exr_channels(bytes);
+    let found = |pixel: usize, color: usize| {
+        let at = 2 - color; // B, G, R
+        channels[at].1.value_by_flat_index(pixel).to_f32()
+    };
+    let found: Vec<f32> = (0..9).map(|i| found(i / 3, i % 3)).collect();
+    let (most, least) = (65504.0, 0.5_f32.powi(24));
+    assert_eq!(
+        found,
+        [most, most, -most, most, most, -most, most, least, 0.0]
+    );
+}
+
+#[test]
+fn a_half_exr_is_smaller_and_tells_as_much() {
+    let [float, half] = [Depth::Float, Depth::Half].map(|depth| exr_bytes_of(depth, &metadata()));
+    assert!(half.len() < float.len(), "{} {}", half.len(), float.len());
+    let [float, half] = [float, half].map(|bytes| {
+        let read = exr::meta::MetaData::read_from_buffered(Cursor::new(bytes), true);
+        let read = read.expect("reads");
+        let header = &read.headers[0];
+        (
+            header.own_attributes.clone(),
+            header.shared_attributes.clone(),
+        )
+    });
+    assert_eq!(half, float);
 }
 
 #[test]
@@ -259,14 +347,17 @@ fn a_png_gives_back_every_byte_and_says_what_they_mean() {
 
 #[test]
 fn equal_pictures_give_equal_bytes_for_any_number_of_threads() {
-    let both = || (exr_bytes(&metadata()), png_bytes(&metadata()));
-    let expected = both();
+    let all = || {
+        let exr = [Depth::Float, Depth::Half].map(|depth| exr_bytes_of(depth, &metadata()));
+        (exr, png_bytes(&metadata()))
+    };
+    let expected = all();
     for threads in [1, 2, 2, 1] {
         let pool = rayon::ThreadPoolBuilder::new()
             .num_threads(threads)
             .build()
             .expect("threads");
-        assert!(pool.install(both) == expected, "{threads} threads");
+        assert!(pool.install(all) == expected, "{threads} threads");
     }
 }
 
@@ -276,13 +367,15 @@ fn sizes_that_do_not_fit_are_refused() {
     let none = Layers::default();
     for (width, height) in [(0, 0), (0, 5), (5, 0), (6, 5), (u32::MAX, u32::MAX)] {
         assert!(png_file::encode(width, height, &[0; 75], &metadata).is_err());
-        assert!(exr_file::encode(width, height, &developed(), &none, &metadata).is_err());
+        assert!(
+            exr_file::encode(width, height, &developed(), Depth::Half, &none, &metadata).is_err()
+        );
     }
     let short = Layers {
         doppler: Some(vec![0.0; 3]),
         ..Layers::default()
     };
-    let error = exr_file::encode(WIDTH, HEIGHT, &developed(), &short, &metadata);
+    let error = exr_file::encode(WIDTH, HEIGHT, &developed(), Depth::Float, &short, &metadata);
     assert!(matches!(
         error,
         Err(EncodeError::Length {

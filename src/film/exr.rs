@@ -1,8 +1,9 @@
-//! OpenEXR: linear Rec.709, or the radiance of three bands, and the film's layers in 32-bit floats, with everything that was
-//! decided about the frame.
+//! OpenEXR: linear Rec.709, or the radiance of three bands, and the film's layers, with everything
+//! that was decided about the frame.
 //!
-//! One part, ZIP in blocks of 16 rows. Channels R, G, B, and one for each layer under its plain
-//! name: `distance`, `doppler`, `emission_time`, `worldline` (units: [`Layers`]). Text is UTF-8.
+//! One part, ZIP in blocks of 16 rows. Channels R, G, B in floats of a [`Depth`], and one of 32 bits
+//! for each layer under its plain name: `distance`, `doppler`, `emission_time`, `worldline` (units:
+//! [`Layers`]). Text is UTF-8.
 //! Source of the attributes: the OpenEXR standard attributes (openexr.com), `samplesPerPixel` as
 //! pbrt writes it, `colorInteropID` of the Color Interop Forum; those of our own begin
 //! `restframe:`.
@@ -26,7 +27,35 @@ const REC709: Chromaticities = Chromaticities {
 };
 const D65: Vec2<f32> = Vec2(0.3127, 0.3290);
 
-/// The bytes of an EXR file.
+/// What the channels R, G, B are held in.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub enum Depth {
+    /// 32 bits a value: as developed.
+    #[default]
+    Float,
+    /// 16 bits a value, IEEE 754 binary16: to 2⁻¹¹ of the value from 2⁻¹⁴ to 65504, to 2⁻²⁵ below.
+    Half,
+}
+
+impl Depth {
+    /// The largest value that can be held.
+    pub fn largest(self) -> f32 {
+        match self {
+            Self::Float => f32::MAX,
+            Self::Half => f16::MAX.to_f32(),
+        }
+    }
+}
+
+/// How many values of the picture are beyond the largest of `depth`, to which [`encode`] clamps
+/// them. Those at ±`f32::MAX` are left out: [`Developed::saturated`] has counted them.
+pub fn clamped(developed: &Developed, depth: Depth) -> u64 {
+    let beyond = |value: f32| value > depth.largest() && value < f32::MAX;
+    let values = developed.linear.iter().flatten();
+    values.filter(|value| beyond(value.abs())).count() as u64
+}
+
+/// The bytes of an EXR file, its colors rounded to the nearest of `depth`.
 ///
 /// # Errors
 /// If a side is zero, if the picture or a layer has not one value for each pixel, or if the
@@ -35,14 +64,15 @@ pub fn encode(
     width: u32,
     height: u32,
     developed: &Developed,
+    depth: Depth,
     layers: &Layers,
     metadata: &Metadata,
 ) -> std::result::Result<Vec<u8>, EncodeError> {
     let mut channels = SmallVec::new();
     check_length("the picture", (width, height), 1, developed.linear.len())?;
     for (index, name) in ["R", "G", "B"].into_iter().enumerate() {
-        let plane = developed.linear.iter().map(|rgb| rgb[index]).collect();
-        channels.push(AnyChannel::new(name, FlatSamples::F32(plane)));
+        let plane = developed.linear.iter().map(|rgb| rgb[index]);
+        channels.push(AnyChannel::new(name, samples(plane, depth)));
     }
     for (name, values) in layers.named() {
         check_length(name, (width, height), 1, values.len())?;
@@ -70,6 +100,17 @@ pub fn encode(
     sort_attributes(&mut bytes)
         .ok_or_else(|| Error::Invalid("the header just written cannot be read again".into()))?;
     Ok(bytes)
+}
+
+fn samples(plane: impl Iterator<Item = f32>, depth: Depth) -> FlatSamples {
+    let largest = depth.largest();
+    match depth {
+        Depth::Float => FlatSamples::F32(plane.collect()),
+        Depth::Half => {
+            let half = |value: f32| f16::from_f32(value.clamp(-largest, largest));
+            FlatSamples::F16(plane.map(half).collect())
+        }
+    }
 }
 
 fn is_color(metadata: &Metadata) -> bool {

@@ -1,9 +1,9 @@
 //! A film to the files of one frame, as bytes.
 
-use crate::film::{self, EncodeError, Film, Metadata, develop};
+use crate::film::{self, EncodeError, Film, Metadata, develop, exr};
 use crate::render::development;
 use crate::scene::Scene;
-use crate::shot::{Format, Sensor, Shot};
+use crate::shot::{Depth, Format, Sensor, Shot};
 
 /// The files of a frame: extension and content, and how many values had to be clamped.
 pub struct Pictures {
@@ -34,22 +34,32 @@ pub fn pictures(
     };
     let (width, height) = (film.width, film.height);
     let mut files = Vec::new();
+    let mut saturated = developed.saturated;
     for format in &shot.output.formats {
         files.push(match format {
             Format::Png => {
                 let rgb = film::png::to_rgb8(&developed, development.encode);
                 ("png", film::png::encode(width, height, &rgb, &metadata)?)
             }
-            Format::Exr => (
-                "exr",
-                film::exr::encode(width, height, &developed, &film.layers, &metadata)?,
-            ),
+            Format::Exr => {
+                let depth = exr_depth(shot.output.depth);
+                saturated += exr::clamped(&developed, depth);
+                let layers = &film.layers;
+                (
+                    "exr",
+                    exr::encode(width, height, &developed, depth, layers, &metadata)?,
+                )
+            }
         });
     }
-    Ok(Pictures {
-        files,
-        saturated: developed.saturated,
-    })
+    Ok(Pictures { files, saturated })
+}
+
+fn exr_depth(depth: Depth) -> exr::Depth {
+    match depth {
+        Depth::Float => exr::Depth::Float,
+        Depth::Half => exr::Depth::Half,
+    }
 }
 
 fn metadata(shot: &Shot, frame: u32, scene: &Scene, exposure_stops: f64, samples: u32) -> Metadata {

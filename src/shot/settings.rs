@@ -255,7 +255,7 @@ impl Default for Output {
 pub enum Format {
     /// 8 bit sRGB after exposure and tone.
     Png,
-    /// Linear 32 bit float before exposure, with layers.
+    /// Linear floats after exposure, before tone, with layers.
     Exr,
 }
 

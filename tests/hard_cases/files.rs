@@ -32,7 +32,8 @@ impl Files {
             },
         );
         let none = Metadata::default();
-        let exr = exr_file::encode(width, height, &developed, &film.layers, &none).unwrap();
+        let float = exr_file::Depth::Float;
+        let exr = exr_file::encode(width, height, &developed, float, &film.layers, &none).unwrap();
         let rgb8 = png_file::to_rgb8(&developed, encode);
         let png = png_file::encode(width, height, &rgb8, &none).unwrap();
         Self {

@@ -61,13 +61,17 @@ def restframe():
     return run
 
 
-@pytest.fixture(scope="session")
-def frame(restframe, tmp_path_factory):
-    """The path of a rendered frame, without extension."""
-    folder = tmp_path_factory.mktemp("frame")
+def render(restframe, folder, shot):
+    """Renders a shot of the sphere; the path of its first frame, without extension."""
     for name in ["sphere.obj", "sphere.mtl"]:
         shutil.copy(ROOT / "assets" / name, folder)
-    (folder / "sphere.toml").write_text(SHOT, encoding="utf-8")
+    (folder / "sphere.toml").write_text(shot, encoding="utf-8")
     done = restframe("render", "sphere.toml", cwd=folder)
     assert done.returncode == 0, done.stderr
     return folder / "renders" / "sphere" / "sphere.0001"
+
+
+@pytest.fixture(scope="session")
+def frame(restframe, tmp_path_factory):
+    """The path of a rendered frame, without extension."""
+    return render(restframe, tmp_path_factory.mktemp("frame"), SHOT)

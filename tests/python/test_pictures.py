@@ -12,11 +12,15 @@ from PIL import Image
 LAYERS = ["restframe.doppler", "restframe.distance", "restframe.emission_time", "restframe.worldline"]
 
 
-@pytest.fixture(scope="module")
-def exr(frame):
-    image = OpenImageIO.ImageBuf(f"{frame}.exr")
+def opened(path):
+    image = OpenImageIO.ImageBuf(str(path))
     assert not image.has_error, image.geterror()
     return image
+
+
+@pytest.fixture(scope="module")
+def exr(frame):
+    return opened(f"{frame}.exr")
 
 
 def channel(exr, name):
@@ -34,6 +38,24 @@ def test_the_exr_is_of_full_floats_and_named_channels(exr):
     assert spec.format == OpenImageIO.FLOAT and not spec.channelformats
     assert set(spec.channelnames[:3]) == {"R", "G", "B"}
     assert len(spec.channelnames) == 7
+
+
+def test_an_exr_of_halves_differs_in_its_colors_alone(exr, frame, restframe, tmp_path):
+    path = conftest.render(restframe, tmp_path, conftest.SHOT + 'depth = "half"\n').with_suffix(".0001.exr")
+    half = opened(path)
+    names = half.spec().channelnames
+    assert names == exr.spec().channelnames
+    for name, kind in zip(names, half.spec().channelformats):
+        written, found = channel(exr, name), channel(half, name)
+        if name in "RGB":
+            assert kind == OpenImageIO.HALF, name
+            # 11 bits of significand, and nothing finer than 2^-24, rounded to nearest.
+            assert (numpy.abs(found - written) <= numpy.maximum(numpy.abs(written) * 2**-11, 2**-25)).all(), name
+        else:
+            assert kind == OpenImageIO.FLOAT, name
+            assert (found == written).all(), name
+    assert path.stat().st_size < frame.with_suffix(frame.suffix + ".exr").stat().st_size
+    assert half.spec().getattribute("restframe:shot") == conftest.SHOT + 'depth = "half"\n'
 
 
 def test_the_exr_says_how_it_was_made(exr):
