@@ -29,8 +29,8 @@ fn bad_shots() -> Vec<PathBuf> {
 
 /// Mistakes of the shot itself or, if there are none, of its files and frames.
 fn mistakes_in(path: &Path) -> Mistakes {
-    let mistakes = Prepared::read(path).err();
-    mistakes.unwrap_or_else(|| panic!("{} has no mistake", path.display()))
+    let read = Prepared::read(path).map(drop);
+    read.expect_err(&path.display().to_string())
 }
 
 #[test]

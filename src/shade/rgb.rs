@@ -21,8 +21,8 @@ use crate::trace::{Root, ShadeTrees};
 use glam::DVec3;
 use std::sync::Arc;
 
-/// Wavelengths of the sums that make the numbers, some 0.1 nm apart in the visible: lines
-/// of σ = 0.2 nm are added up within 1e-3, what is wider than 1 nm within 1e-6.
+/// Wavelengths of the sums that make the numbers, some 0.1 nm apart in the visible: light of
+/// σ = 0.2 nm is added up within 1e-7, of 1 nm within 1e-9 (`tests/held_spectra.rs`).
 const WAVELENGTHS: usize = 4096;
 
 /// Turns shade trees to light by three numbers.

@@ -26,7 +26,7 @@ enum Held {
     /// The scene's curves.
     Curves,
     /// Samples at equal distances.
-    Lines(LineShader),
+    Lines(Box<LineShader>),
     /// Three numbers.
     Rgb(Box<RgbShader>),
 }
@@ -46,7 +46,7 @@ impl Shader {
             Spectra::Grid | Spectra::Spline => (settings.accuracy.spectra, Held::Curves),
             Spectra::Lines => {
                 let lines = LineShader::new(scene, settings, axis);
-                (Spectra::Spline, Held::Lines(lines))
+                (Spectra::Spline, Held::Lines(Box::new(lines)))
             }
             Spectra::Rgb => {
                 let rgb = RgbShader::new(scene, settings, &sensor);
