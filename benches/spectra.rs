@@ -1,4 +1,5 @@
-//! Shading of one ray by how its spectra are held, over the number of wavelengths.
+//! Shading of one ray by how its spectra are held, over the number of wavelengths or the distance
+//! of lines.
 
 mod shell;
 
@@ -13,11 +14,25 @@ fn main() {
 }
 
 const WAVELENGTHS: [u32; 5] = [21, 42, 84, 168, 336];
+const SPLINE_WAVELENGTHS: [u32; 8] = [8, 11, 16, 31, 61, 81, 84, 121];
+/// Distances of lines, nm.
+const SPACINGS: [f64; 4] = [10.0, 5.0, 2.5, 1.0];
+
+/// By curves over as many wavelengths.
+fn curves(bencher: Bencher<'_, '_>, spectra: &str, wavelengths: u32, lamp_doppler: f64) {
+    let accuracy = format!("spectra = \"{spectra}\"\nwavelengths = {wavelengths}");
+    shade(bencher, "", &accuracy, lamp_doppler);
+}
+
+/// By lines at such distances.
+fn lines(bencher: Bencher<'_, '_>, spacing_nm: f64, lamp_doppler: f64) {
+    let accuracy = format!("spectra = \"lines\"\nline_spacing = {spacing_nm}");
+    shade(bencher, "", &accuracy, lamp_doppler);
+}
 
 /// XYZ of one lit surface at D = 1.2, the lamp at `lamp_doppler` to it.
-fn shade(bencher: Bencher<'_, '_>, spectra: &str, wavelengths: u32, lamp_doppler: f64) {
-    let accuracy = format!("spectra = \"{spectra}\"\nwavelengths = {wavelengths}");
-    let (prepared, scene, _) = shell(0.5, "shell", "", &accuracy);
+fn shade(bencher: Bencher<'_, '_>, effects: &str, accuracy: &str, lamp_doppler: f64) {
+    let (prepared, scene, _) = shell(0.5, "shell", effects, accuracy);
     let called = plan::called(&prepared.shot, 1, &prepared.shot.effects).expect("it moves");
     let settings = Settings {
         called: &called,
@@ -68,15 +83,35 @@ fn shade(bencher: Bencher<'_, '_>, spectra: &str, wavelengths: u32, lamp_doppler
 
 #[divan::bench(args = WAVELENGTHS)]
 fn grid_lamp_moves_along(bencher: Bencher<'_, '_>, wavelengths: u32) {
-    shade(bencher, "grid", wavelengths, 1.0);
+    curves(bencher, "grid", wavelengths, 1.0);
 }
 
 #[divan::bench(args = WAVELENGTHS)]
 fn grid_two_shifts(bencher: Bencher<'_, '_>, wavelengths: u32) {
-    shade(bencher, "grid", wavelengths, 0.9);
+    curves(bencher, "grid", wavelengths, 0.9);
 }
 
-#[divan::bench(args = WAVELENGTHS)]
+#[divan::bench(args = SPLINE_WAVELENGTHS)]
+fn spline_lamp_moves_along(bencher: Bencher<'_, '_>, wavelengths: u32) {
+    curves(bencher, "spline", wavelengths, 1.0);
+}
+
+#[divan::bench(args = SPLINE_WAVELENGTHS)]
 fn spline_two_shifts(bencher: Bencher<'_, '_>, wavelengths: u32) {
-    shade(bencher, "spline", wavelengths, 0.9);
+    curves(bencher, "spline", wavelengths, 0.9);
+}
+
+#[divan::bench(args = SPACINGS)]
+fn lines_lamp_moves_along(bencher: Bencher<'_, '_>, spacing_nm: f64) {
+    lines(bencher, spacing_nm, 1.0);
+}
+
+#[divan::bench(args = SPACINGS)]
+fn lines_two_shifts(bencher: Bencher<'_, '_>, spacing_nm: f64) {
+    lines(bencher, spacing_nm, 0.9);
+}
+
+#[divan::bench]
+fn rgb_without_shift(bencher: Bencher<'_, '_>) {
+    shade(bencher, "doppler = \"off\"", "spectra = \"rgb\"", 0.9);
 }

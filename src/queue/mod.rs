@@ -7,6 +7,7 @@
 mod frames;
 mod picture;
 mod progress;
+mod shifts;
 mod shots;
 mod write;
 

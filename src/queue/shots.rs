@@ -3,6 +3,7 @@
 use super::frames::FrameList;
 use super::picture::pictures;
 use super::progress::Progress;
+use super::shifts::refuse_shifted_numbers;
 use super::write::write_atomically;
 use crate::film::EncodeError;
 use crate::render::{Options, metered_exposure, render};
@@ -72,6 +73,7 @@ impl Prepared {
         for frame in 1..=shot.shot.frames {
             Scene::check(&shot, &library, frame)?;
         }
+        refuse_shifted_numbers(&shot)?;
         Ok(Self { shot, library })
     }
 

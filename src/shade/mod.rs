@@ -9,14 +9,20 @@
 //! with the body it lights: their product's XYZ is then a function of ln D alone, tabulated when
 //! the image is prepared. Elsewhere, with `accuracy.spectra = "spline"` and for the curve itself,
 //! each spectrum is read at all wavelengths under its own shift.
+//!
+//! Two ways of holding spectra stand beside for comparison: lines at equal distances, resampled at
+//! every shift, and three numbers, which cannot be shifted.
 
 mod bake;
+mod components;
 mod curve;
 mod curves;
 mod lamps;
+mod lines;
 mod passage;
 mod radiance;
 pub mod received;
+mod rgb;
 mod shader;
 mod sky;
 mod table;

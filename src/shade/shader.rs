@@ -1,12 +1,15 @@
 //! The shader of one image, by how the shot holds its spectra.
 
 use super::bake::Settings;
+use super::components::Walk;
 use super::curves::CurveShader;
+use super::lines::LineShader;
 use super::passage::Passages;
 use super::radiance::Radiance;
+use super::rgb::RgbShader;
 use crate::scene::Scene;
 use crate::shot::{Accuracy, SensorColor, Spectra};
-use crate::spectrum::{LogAxis, Sensor};
+use crate::spectrum::{Lines, LogAxis, Sensor};
 use crate::trace::{Root, ShadeTrees};
 
 /// Turns shade trees to light.
@@ -22,6 +25,10 @@ pub struct Shader {
 enum Held {
     /// The scene's curves.
     Curves,
+    /// Samples at equal distances.
+    Lines(Box<LineShader>),
+    /// Three numbers.
+    Rgb(Box<RgbShader>),
 }
 
 impl Shader {
@@ -37,7 +44,15 @@ impl Shader {
         };
         let (curves, held) = match settings.accuracy.spectra {
             Spectra::Grid | Spectra::Spline => (settings.accuracy.spectra, Held::Curves),
-            Spectra::Lines | Spectra::Rgb | Spectra::Exact => (Spectra::Spline, Held::Curves),
+            Spectra::Lines => {
+                let lines = LineShader::new(scene, settings, axis);
+                (Spectra::Spline, Held::Lines(Box::new(lines)))
+            }
+            Spectra::Rgb => {
+                let rgb = RgbShader::new(scene, settings, &sensor);
+                (Spectra::Spline, Held::Rgb(Box::new(rgb)))
+            }
+            Spectra::Exact => (Spectra::Spline, Held::Curves),
         };
         let accuracy = Accuracy {
             spectra: curves,
@@ -65,12 +80,17 @@ impl Shader {
     pub fn xyz(&self, trees: &ShadeTrees, root: Root, scratch: &mut ShadeScratch) -> [f64; 3] {
         match &self.held {
             Held::Curves => self.curves.xyz(trees, root, scratch),
+            Held::Lines(lines) => lines.xyz(trees, root, &mut scratch.lines),
+            Held::Rgb(rgb) => rgb.xyz(trees, root, &mut scratch.rgb),
         }
     }
 
     /// Spectral radiance that the camera receives along a ray, at [`Shader::wavelengths_nm`].
     pub fn radiance(&self, trees: &ShadeTrees, root: Root) -> Radiance {
-        self.curves.radiance(trees, root)
+        match &self.held {
+            Held::Lines(lines) => lines.radiance(trees, root),
+            Held::Curves | Held::Rgb(_) => self.curves.radiance(trees, root),
+        }
     }
 
     /// The sensor's channels of spectral radiance at [`Shader::wavelengths_nm`].
@@ -92,6 +112,8 @@ pub struct ShadeScratch {
     reflected: Vec<f32>,
     pub(super) passages: Passages,
     pub(super) radiance: Radiance,
+    lines: Walk<Lines>,
+    rgb: Walk<[f64; 3]>,
 }
 
 impl ShadeScratch {

@@ -2,7 +2,7 @@
 //! beaming leaves over, D⁵ B(Dλ, T) = B(λ, DT), so one curve serves every temperature.
 
 use super::curve::Curve;
-use super::received::Received;
+use super::received::{Received, finite};
 use super::table::XyzTable;
 use crate::scene::{self, Thermal};
 use crate::spectrum::{LogAxis, Sensor, catmull_rom, planck};
@@ -124,6 +124,11 @@ impl Glow {
             self.table = Some(table(&|d, out| self.read(d, axis, out)));
         }
         self
+    }
+
+    /// Spectral radiance at a wavelength (nm) in the rest frame of what glows; finite.
+    pub(super) fn at(&self, nm: f64) -> f64 {
+        finite(self.scale * self.emissivity.at(nm) * planck::radiance(nm, self.temperature_k))
     }
 
     /// Writes emissivity times Planck's curve at D·λ, over the largest value, which is returned.

@@ -28,8 +28,6 @@ const LATER: &[(&str, When, &str)] = &[
     ("camera.model", Always, "place the camera with `position` and `look_at`"),
     ("camera.node", Always, "place the camera with `position` and `look_at`"),
     ("sensor.tone", Word("filmic"), "use \"clip\""),
-    ("accuracy.spectra", Word("lines"), "use \"grid\" or \"spline\""),
-    ("accuracy.spectra", Word("rgb"), "use \"grid\", and doppler = \"off\" for no shift"),
 ];
 
 /// Message and help if a value is not supported yet.

@@ -12,6 +12,7 @@ pub mod cardinal;
 pub mod cie;
 pub mod color_space;
 pub mod illuminant;
+mod lines;
 mod log_grid;
 pub mod planck;
 pub mod sampled;
@@ -21,6 +22,7 @@ pub mod uplift;
 
 pub use cardinal::{Beyond, Cardinal};
 pub use illuminant::illuminant;
+pub use lines::{LINES_NM, LineAxis, Lines};
 pub use log_grid::{Baked, LogAxis, Shifted};
 pub use planck::PlanckShape;
 pub use sampled::Sampled;

@@ -19,12 +19,12 @@ BEYOND = set("""
     absurd-array beta-one beta-ramp camera-looks-at-itself camera-on-itself dangling-material
     dangling-spectrum dangling-worldline emissivity-above-one field-of-view field-of-view-key
     infinity inner-exceeds-outer key-after-the-end keys-descend lab-redefined
-    light-without-amount look-at-and-yaw missing-csv missing-file missing-sky model-extension
-    model-is-a-folder nan no-kind overflowing-number panorama-too-high point-at-zero
-    point-without-position points-descend reflectance-above-one same-name splice-empty
-    star-temperatures-descend strength-of-absolute sun-with-position temperature-key
-    two-fields-of-view two-kinds two-skies unknown-illuminant window-descends window-of-nothing
-    zero-direction zero-scale
+    light-without-amount lines-of-radio lines-too-sparse look-at-and-yaw missing-csv
+    missing-file missing-sky model-extension model-is-a-folder nan no-kind overflowing-number
+    panorama-too-high point-at-zero point-without-position points-descend reflectance-above-one
+    rgb-moves rgb-splice same-name splice-empty star-temperatures-descend strength-of-absolute
+    sun-with-position temperature-key two-fields-of-view two-kinds two-skies unknown-illuminant
+    window-descends window-of-nothing zero-direction zero-scale
 """.split())
 
 

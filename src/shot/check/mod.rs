@@ -15,7 +15,8 @@ use super::mistake::Mistake;
 use super::names::{did_you_mean, short};
 use super::track::Blend;
 use super::walk::Walk;
-use super::{Shot, Track};
+use super::{Shot, Spectra, Track};
+use crate::spectrum::{LINES_NM, LineAxis};
 use std::collections::HashMap;
 use std::path::Path;
 
@@ -173,6 +174,8 @@ impl<'a> Checks<'a> {
                 message,
                 "let it end at least a millionth further than it begins",
             );
+        } else {
+            self.lines();
         }
         for (key, splice) in self.each("splice", &self.shot.splice) {
             let [top, bottom] = splice.rows;
@@ -185,5 +188,21 @@ impl<'a> Checks<'a> {
                 );
             }
         }
+    }
+    /// Lines that a window leaves none of would make a black picture.
+    fn lines(&mut self) {
+        let accuracy = &self.shot.accuracy;
+        let [from, to] = self.shot.sensor.window;
+        let axis = LineAxis::new(accuracy.line_spacing);
+        if accuracy.spectra != Spectra::Lines || axis.within([from, to]).next().is_some() {
+            return;
+        }
+        let [first, last] = LINES_NM;
+        let message = format!("no line lies in the window from {from} to {to} nm");
+        let help = format!(
+            "lines stand from {first} to {last} nm, {} nm apart (`line_spacing`): use \"grid\", or another window",
+            axis.spacing_nm()
+        );
+        self.say("accuracy.spectra", message, &help);
     }
 }
