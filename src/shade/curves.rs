@@ -19,12 +19,12 @@ use std::sync::Arc;
 pub(super) struct CurveShader {
     pub(super) sensor: Sensor,
     pub(super) received: Received,
-    surfaces: Vec<MaterialCurves>,
+    pub(super) surfaces: Vec<MaterialCurves>,
     /// Index of its emitter and scale, for each light.
     pub(super) lamps: Vec<(usize, f64)>,
     /// Distinct spectra of lamps.
     pub(super) emitters: Vec<Sight>,
-    sky: SkyShade,
+    pub(super) sky: SkyShade,
     bodies: Option<Arc<BlackBodies>>,
     /// Whether tables stand in for sums over wavelengths.
     pub(super) tabulated: bool,

@@ -6,7 +6,7 @@ use super::passage::Passages;
 use super::radiance::Radiance;
 use crate::scene::Scene;
 use crate::shot::{Accuracy, SensorColor, Spectra};
-use crate::spectrum::{LogAxis, Sensor};
+use crate::spectrum::{LogAxis, Quadrature, Sensor};
 use crate::trace::{Root, ShadeTrees};
 
 /// Turns shade trees to light.
@@ -22,6 +22,8 @@ pub struct Shader {
 enum Held {
     /// The scene's curves.
     Curves,
+    /// The scene's curves as their author wrote them, by quadrature.
+    Exact(Quadrature),
 }
 
 impl Shader {
@@ -37,7 +39,14 @@ impl Shader {
         };
         let (curves, held) = match settings.accuracy.spectra {
             Spectra::Grid | Spectra::Spline => (settings.accuracy.spectra, Held::Curves),
-            Spectra::Lines | Spectra::Rgb | Spectra::Exact => (Spectra::Spline, Held::Curves),
+            Spectra::Lines | Spectra::Rgb => (Spectra::Spline, Held::Curves),
+            Spectra::Exact => (
+                Spectra::Spline,
+                Held::Exact(match settings.sensor.color {
+                    SensorColor::Cie1931 => Quadrature::cie1931(settings.sensor.window),
+                    SensorColor::Bands => Quadrature::bands(settings.sensor.window),
+                }),
+            ),
         };
         let accuracy = Accuracy {
             spectra: curves,
@@ -65,6 +74,7 @@ impl Shader {
     pub fn xyz(&self, trees: &ShadeTrees, root: Root, scratch: &mut ShadeScratch) -> [f64; 3] {
         match &self.held {
             Held::Curves => self.curves.xyz(trees, root, scratch),
+            Held::Exact(quadrature) => self.curves.exact(quadrature, trees, root),
         }
     }
 
