@@ -28,6 +28,8 @@ pub(super) struct CurveShader {
     bodies: Option<Arc<BlackBodies>>,
     /// Whether tables stand in for sums over wavelengths.
     pub(super) tabulated: bool,
+    /// Largest |ln D| between a surface and the camera, and between a lamp and the camera.
+    pub(super) reach: [f64; 2],
 }
 
 impl CurveShader {
@@ -64,6 +66,7 @@ impl CurveShader {
             sky,
             bodies,
             tabulated,
+            reach: [settings.reach, settings.reach + settings.lamp_reach],
             sensor,
         }
     }

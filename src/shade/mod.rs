@@ -12,6 +12,7 @@
 //! adaptive quadrature asks for.
 
 mod bake;
+mod bound;
 mod curve;
 mod curves;
 mod exact;

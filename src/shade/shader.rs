@@ -5,7 +5,7 @@ use super::curves::CurveShader;
 use super::passage::Passages;
 use super::radiance::Radiance;
 use crate::scene::Scene;
-use crate::shot::{Accuracy, SensorColor, Spectra};
+use crate::shot::{self, Accuracy, SensorColor, Spectra};
 use crate::spectrum::{LogAxis, Quadrature, Sensor};
 use crate::trace::{Root, ShadeTrees};
 
@@ -16,6 +16,8 @@ pub struct Shader {
     /// [`Shader::radiance`].
     curves: CurveShader,
     held: Held,
+    /// What a grid's error is stated against; None in other modes.
+    reference: Option<Quadrature>,
 }
 
 /// What makes channels of shade trees.
@@ -40,14 +42,10 @@ impl Shader {
         let (curves, held) = match settings.accuracy.spectra {
             Spectra::Grid | Spectra::Spline => (settings.accuracy.spectra, Held::Curves),
             Spectra::Lines | Spectra::Rgb => (Spectra::Spline, Held::Curves),
-            Spectra::Exact => (
-                Spectra::Spline,
-                Held::Exact(match settings.sensor.color {
-                    SensorColor::Cie1931 => Quadrature::cie1931(settings.sensor.window),
-                    SensorColor::Bands => Quadrature::bands(settings.sensor.window),
-                }),
-            ),
+            Spectra::Exact => (Spectra::Spline, Held::Exact(quadrature(settings.sensor))),
         };
+        let grid = settings.accuracy.spectra == Spectra::Grid;
+        let reference = grid.then(|| quadrature(settings.sensor));
         let accuracy = Accuracy {
             spectra: curves,
             ..*settings.accuracy
@@ -59,6 +57,7 @@ impl Shader {
         Self {
             curves: CurveShader::new(scene, &settings, sensor.clone()),
             held,
+            reference,
             sensor,
         }
     }
@@ -83,6 +82,16 @@ impl Shader {
         self.curves.radiance(trees, root)
     }
 
+    /// The largest error of what the camera sees directly, where grids of wavelengths state one:
+    /// |Δ| of a channel over that channel of an equal-energy light as bright as the product of the
+    /// peaks of spectra in reach, the greatest over materials with each lamp. None in other modes.
+    ///
+    /// Takes some milliseconds.
+    pub fn bound(&self) -> Option<f64> {
+        let reference = self.reference.as_ref()?;
+        Some(self.curves.bound(reference))
+    }
+
     /// The sensor's channels of spectral radiance at [`Shader::wavelengths_nm`].
     pub fn xyz_of(&self, radiance: &[f64]) -> [f64; 3] {
         self.sensor.xyz(radiance)
@@ -91,6 +100,14 @@ impl Shader {
     /// XYZ (cd/m²) of spectral radiance at [`Shader::wavelengths_nm`], whatever the sensor.
     pub fn eye_of(&self, radiance: &[f64]) -> [f64; 3] {
         Sensor::cie1931(self.sensor.axis()).xyz(radiance)
+    }
+}
+
+/// The integrals that a sensor's channels stand for.
+fn quadrature(sensor: &shot::Sensor) -> Quadrature {
+    match sensor.color {
+        SensorColor::Cie1931 => Quadrature::cie1931(sensor.window),
+        SensorColor::Bands => Quadrature::bands(sensor.window),
     }
 }
 

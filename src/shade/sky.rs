@@ -57,6 +57,11 @@ impl SkyShade {
         }
     }
 
+    /// The spectrum that is the same all around.
+    pub(super) fn constant(&self) -> Option<&Sight> {
+        self.constant.as_ref()
+    }
+
     /// XYZ (cd/m²) from a unit direction, in the sky's own axes, away from the observer, under the
     /// Doppler factor `doppler`. `scratch` is as long as the sensor's axis.
     #[inline]

@@ -165,6 +165,11 @@ impl Glow {
         }
     }
 
+    /// What it is made of: its temperature (K) and its emissivity.
+    pub(super) fn parts(&self) -> (f64, &Curve) {
+        (self.temperature_k, &self.emissivity)
+    }
+
     /// As it is received under the Doppler factor `d`.
     pub(super) fn seen(&self, d: f64, received: Received) -> SeenGlow<'_> {
         let shift = received.shift(d);

@@ -8,6 +8,7 @@
 //! A leaf: nothing else of ours is imported.
 
 mod band;
+mod bound;
 pub mod cardinal;
 pub mod cie;
 pub mod color_space;
@@ -20,6 +21,7 @@ mod sensor;
 mod tables;
 pub mod uplift;
 
+pub use bound::{GridBound, Roughness};
 pub use cardinal::{Beyond, Cardinal};
 pub use illuminant::illuminant;
 pub use log_grid::{Baked, LogAxis, Shifted};

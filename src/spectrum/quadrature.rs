@@ -80,12 +80,33 @@ impl Quadrature {
         }
     }
 
+    /// The range of wavelengths that is seen at all, nm; None if it is empty.
+    pub fn seen_nm(&self) -> Option<[f64; 2]> {
+        Some([*self.cuts_nm.first()?, *self.cuts_nm.last()?])
+    }
+
+    /// The channels of an equal-energy light of value 1 between two wavelengths, nm.
+    pub(super) fn white(&self, [from, to]: [f64; 2]) -> [f64; 3] {
+        let first = self.cuts_nm.partition_point(|cut| *cut <= from);
+        let mut sum = [0.0; 3];
+        for pair in self.cuts_nm[first.saturating_sub(1)..].windows(2) {
+            if pair[0] >= to {
+                break;
+            }
+            let ends = [pair[0].max(from), pair[1].min(to)];
+            if ends[0] < ends[1] {
+                self.piece(ends, &|_| 1.0).add_to(&mut sum);
+            }
+        }
+        sum
+    }
+
     /// The channels of a curve (of the wavelength in nm, at least 0) within [`TOLERANCE`] of the
     /// greatest, given where it is not smooth: `cuts_nm`, in any order, anywhere.
     ///
     /// XYZ of all that is visible takes 7 evaluations a nm, and as many for each cut.
     pub fn channels(&self, cuts_nm: &mut Vec<f64>, curve: impl Fn(f64) -> f64) -> [f64; 3] {
-        let [Some(&from), Some(&to)] = [self.cuts_nm.first(), self.cuts_nm.last()] else {
+        let Some([from, to]) = self.seen_nm() else {
             return [0.0; 3];
         };
         cuts_nm.retain(|nm| *nm > from && *nm < to);
