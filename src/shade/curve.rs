@@ -49,6 +49,11 @@ impl Curve {
             .then(|| self.at(self.axis.wavelength_nm(0.0)))
     }
 
+    /// As its author wrote it, without weight and limit.
+    pub(super) fn spectrum(&self) -> &Spectrum {
+        &self.spectrum
+    }
+
     pub(super) fn support_nm(&self) -> Option<[f64; 2]> {
         self.spectrum.support_nm()
     }

@@ -19,15 +19,17 @@ use std::sync::Arc;
 pub(super) struct CurveShader {
     pub(super) sensor: Sensor,
     pub(super) received: Received,
-    surfaces: Vec<MaterialCurves>,
+    pub(super) surfaces: Vec<MaterialCurves>,
     /// Index of its emitter and scale, for each light.
     pub(super) lamps: Vec<(usize, f64)>,
     /// Distinct spectra of lamps.
     pub(super) emitters: Vec<Sight>,
-    sky: SkyShade,
+    pub(super) sky: SkyShade,
     bodies: Option<Arc<BlackBodies>>,
     /// Whether tables stand in for sums over wavelengths.
     pub(super) tabulated: bool,
+    /// Largest |ln D| between a surface and the camera, and between a lamp and the camera.
+    pub(super) reach: [f64; 2],
 }
 
 impl CurveShader {
@@ -64,6 +66,7 @@ impl CurveShader {
             sky,
             bodies,
             tabulated,
+            reach: [settings.reach, settings.reach + settings.lamp_reach],
             sensor,
         }
     }

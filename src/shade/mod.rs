@@ -8,15 +8,18 @@
 //! XYZ takes a short cut where one shift serves light and material together, a lamp that moves
 //! with the body it lights: their product's XYZ is then a function of ln D alone, tabulated when
 //! the image is prepared. Elsewhere, with `accuracy.spectra = "spline"` and for the curve itself,
-//! each spectrum is read at all wavelengths under its own shift.
+//! each spectrum is read at all wavelengths under its own shift; with "exact", at as many as
+//! adaptive quadrature asks for.
 //!
 //! Two ways of holding spectra stand beside for comparison: lines at equal distances, resampled at
 //! every shift, and three numbers, which cannot be shifted.
 
 mod bake;
+mod bound;
 mod components;
 mod curve;
 mod curves;
+mod exact;
 mod lamps;
 mod lines;
 mod passage;

@@ -54,6 +54,11 @@ impl Received {
         }
     }
 
+    /// Whether curves shift.
+    pub(super) fn shifts(self) -> bool {
+        self.doppler
+    }
+
     /// The factor by which wavelengths are read at the source: D, or 1 where curves do not shift.
     #[inline(always)]
     pub fn shift(self, d: f64) -> f64 {

@@ -8,8 +8,8 @@ use super::passage::Passages;
 use super::radiance::Radiance;
 use super::rgb::RgbShader;
 use crate::scene::Scene;
-use crate::shot::{Accuracy, SensorColor, Spectra};
-use crate::spectrum::{Lines, LogAxis, Sensor};
+use crate::shot::{self, Accuracy, SensorColor, Spectra};
+use crate::spectrum::{Lines, LogAxis, Quadrature, Sensor};
 use crate::trace::{Root, ShadeTrees};
 
 /// Turns shade trees to light.
@@ -19,6 +19,8 @@ pub struct Shader {
     /// [`Shader::radiance`].
     curves: CurveShader,
     held: Held,
+    /// What a grid's error is stated against; None in other modes.
+    reference: Option<Quadrature>,
 }
 
 /// What makes channels of shade trees.
@@ -29,6 +31,8 @@ enum Held {
     Lines(Box<LineShader>),
     /// Three numbers.
     Rgb(Box<RgbShader>),
+    /// The scene's curves as their author wrote them, by quadrature.
+    Exact(Quadrature),
 }
 
 impl Shader {
@@ -52,8 +56,10 @@ impl Shader {
                 let rgb = RgbShader::new(scene, settings, &sensor);
                 (Spectra::Spline, Held::Rgb(Box::new(rgb)))
             }
-            Spectra::Exact => (Spectra::Spline, Held::Curves),
+            Spectra::Exact => (Spectra::Spline, Held::Exact(quadrature(settings.sensor))),
         };
+        let grid = settings.accuracy.spectra == Spectra::Grid;
+        let reference = grid.then(|| quadrature(settings.sensor));
         let accuracy = Accuracy {
             spectra: curves,
             ..*settings.accuracy
@@ -65,6 +71,7 @@ impl Shader {
         Self {
             curves: CurveShader::new(scene, &settings, sensor.clone()),
             held,
+            reference,
             sensor,
         }
     }
@@ -82,6 +89,7 @@ impl Shader {
             Held::Curves => self.curves.xyz(trees, root, scratch),
             Held::Lines(lines) => lines.xyz(trees, root, &mut scratch.lines),
             Held::Rgb(rgb) => rgb.xyz(trees, root, &mut scratch.rgb),
+            Held::Exact(quadrature) => self.curves.exact(quadrature, trees, root),
         }
     }
 
@@ -89,8 +97,18 @@ impl Shader {
     pub fn radiance(&self, trees: &ShadeTrees, root: Root) -> Radiance {
         match &self.held {
             Held::Lines(lines) => lines.radiance(trees, root),
-            Held::Curves | Held::Rgb(_) => self.curves.radiance(trees, root),
+            Held::Curves | Held::Rgb(_) | Held::Exact(_) => self.curves.radiance(trees, root),
         }
+    }
+
+    /// The largest error of what the camera sees directly, where grids of wavelengths state one:
+    /// |Δ| of a channel over that channel of an equal-energy light as bright as the product of the
+    /// peaks of spectra in reach, the greatest over materials with each lamp. None in other modes.
+    ///
+    /// Takes some milliseconds.
+    pub fn bound(&self) -> Option<f64> {
+        let reference = self.reference.as_ref()?;
+        Some(self.curves.bound(reference))
     }
 
     /// The sensor's channels of spectral radiance at [`Shader::wavelengths_nm`].
@@ -101,6 +119,14 @@ impl Shader {
     /// XYZ (cd/m²) of spectral radiance at [`Shader::wavelengths_nm`], whatever the sensor.
     pub fn eye_of(&self, radiance: &[f64]) -> [f64; 3] {
         Sensor::cie1931(self.sensor.axis()).xyz(radiance)
+    }
+}
+
+/// The integrals that a sensor's channels stand for.
+fn quadrature(sensor: &shot::Sensor) -> Quadrature {
+    match sensor.color {
+        SensorColor::Cie1931 => Quadrature::cie1931(sensor.window),
+        SensorColor::Bands => Quadrature::bands(sensor.window),
     }
 }
 

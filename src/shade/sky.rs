@@ -8,6 +8,7 @@
 
 use super::bake::{Bake, Sight};
 use super::curve::Curve;
+use super::exact::{Reading, Source};
 use super::received::{Received, finite};
 use super::thermal::BlackBodies;
 use crate::scene::Background;
@@ -54,6 +55,11 @@ impl SkyShade {
             image: image.map(|image| Painted::new(Arc::clone(image), sky.scale, bake)),
             stars: sky.stars.clone().zip(bodies),
         }
+    }
+
+    /// The spectrum that is the same all around.
+    pub(super) fn constant(&self) -> Option<&Sight> {
+        self.constant.as_ref()
     }
 
     /// XYZ (cd/m²) from a unit direction, in the sky's own axes, away from the observer, under the
@@ -116,6 +122,35 @@ impl SkyShade {
                 }
             }
         }
+    }
+
+    /// Adds what [`SkyShade::add`] is made of.
+    pub(super) fn add_sources<'a>(
+        &'a self,
+        direction: DVec3,
+        doppler: f64,
+        received: Received,
+        sources: &mut Vec<Source<'a>>,
+    ) {
+        let (power, shift) = (received.radiance(doppler), received.shift(doppler));
+        let reading = |curve: &'a Curve| Reading { curve, shift };
+        sources.extend(self.constant.as_ref().map(|sight| Source::Curve {
+            factor: power,
+            reading: reading(&sight.curve),
+        }));
+        sources.extend(self.image.as_ref().map(|image| Source::Painted {
+            factor: finite(image.scale * power),
+            light: ColoredLight::new(image.image.rgb(direction)),
+            d65: reading(&image.d65),
+        }));
+        let stars = self
+            .stars
+            .iter()
+            .flat_map(|(stars, _)| stars.seen(direction));
+        sources.extend(stars.map(|star| Source::BlackBody {
+            factor: finite(star.scale * received.black_body(doppler)),
+            kelvin: finite(shift * star.temperature_k),
+        }));
     }
 }
 

@@ -35,6 +35,11 @@ impl XyzTable {
         per_unit(axis) <= MOST
     }
 
+    /// Distance of entries in ln D.
+    pub(super) fn spacing(axis: LogAxis) -> f64 {
+        1.0 / per_unit(axis)
+    }
+
     /// Tabulates `read(D, out)`, which writes the curve's shape at D·λ and returns its factor,
     /// for |ln D| ≤ `reach`, as far as `support_nm` (outside of which the curve is constant)
     /// makes a difference.

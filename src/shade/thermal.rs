@@ -164,13 +164,41 @@ impl Glow {
 
     /// Adds the spectral radiance under the Doppler factor `d` at the axis' wavelengths.
     pub(super) fn add(&self, d: f64, received: Received, axis: LogAxis, out: &mut [f64]) {
-        let shift = received.shift(d);
-        let factor = (self.scale * received.black_body(d)).min(f64::MAX);
-        // A black body at T seen under D is one at D·T: no power of D is left to overflow.
-        let kelvin = shift * self.temperature_k;
+        let seen = self.seen(d, received);
         for (j, out) in out.iter_mut().enumerate() {
-            let nm = axis.wavelength_nm(j as f64);
-            *out += factor * self.emissivity.at(shift * nm) * planck::radiance(nm, kelvin);
+            *out += seen.at(axis.wavelength_nm(j as f64));
         }
+    }
+
+    /// What it is made of: its temperature (K) and its emissivity.
+    pub(super) fn parts(&self) -> (f64, &Curve) {
+        (self.temperature_k, &self.emissivity)
+    }
+
+    /// As it is received under the Doppler factor `d`.
+    pub(super) fn seen(&self, d: f64, received: Received) -> SeenGlow<'_> {
+        let shift = received.shift(d);
+        SeenGlow {
+            factor: (self.scale * received.black_body(d)).min(f64::MAX),
+            // A black body at T seen under D is one at D·T: no power of D is left to overflow.
+            kelvin: shift * self.temperature_k,
+            emissivity: &self.emissivity,
+            shift,
+        }
+    }
+}
+
+/// Thermal light as it is received.
+pub(super) struct SeenGlow<'a> {
+    factor: f64,
+    kelvin: f64,
+    pub(super) emissivity: &'a Curve,
+    pub(super) shift: f64,
+}
+
+impl SeenGlow<'_> {
+    /// Spectral radiance at a wavelength, W·m⁻²·sr⁻¹·nm⁻¹.
+    pub(super) fn at(&self, nm: f64) -> f64 {
+        self.factor * self.emissivity.at(self.shift * nm) * planck::radiance(nm, self.kelvin)
     }
 }

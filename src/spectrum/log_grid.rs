@@ -68,6 +68,9 @@ impl LogAxis {
 /// Rows between two neighbours of the axis.
 const PHASES: usize = 32;
 
+/// Their distance in units of the axis' spacing.
+pub(super) const PHASE_SPACING: f64 = 1.0 / PHASES as f64;
+
 /// Most columns of a curve, 32 MB of it. A window so narrow that the curve is wider than as many
 /// of its steps cannot have it baked.
 const MOST_COLUMNS: f64 = 262_144.0;

@@ -8,6 +8,7 @@
 //! A leaf: nothing else of ours is imported.
 
 mod band;
+mod bound;
 pub mod cardinal;
 pub mod cie;
 pub mod color_space;
@@ -15,16 +16,19 @@ pub mod illuminant;
 mod lines;
 mod log_grid;
 pub mod planck;
+pub mod quadrature;
 pub mod sampled;
 mod sensor;
 mod tables;
 pub mod uplift;
 
+pub use bound::{GridBound, Roughness};
 pub use cardinal::{Beyond, Cardinal};
 pub use illuminant::illuminant;
 pub use lines::{LINES_NM, LineAxis, Lines};
 pub use log_grid::{Baked, LogAxis, Shifted};
 pub use planck::PlanckShape;
+pub use quadrature::Quadrature;
 pub use sampled::Sampled;
 pub use sensor::{Sensor, catmull_rom};
 pub use uplift::{ColoredLight, Uplift};

@@ -95,6 +95,11 @@ impl Sensor {
         self.axis
     }
 
+    /// What each wavelength counts for in each channel.
+    pub(super) fn weights(&self) -> &[[f64; 3]] {
+        &self.weights
+    }
+
     /// Whether the j-th wavelength counts for any channel.
     pub fn sees(&self, j: usize) -> bool {
         self.weights

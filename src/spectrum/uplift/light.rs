@@ -12,6 +12,7 @@
 //! (0.2 s on one core). Each entry is fitted by itself: the same on any number of threads.
 
 use super::{HALF_NM, MIDDLE_NM, fit::fit, quadratic, sigmoid, variable};
+use crate::spectrum::cie::RANGE_NM;
 use crate::spectrum::sensor::catmull_rom;
 use rayon::prelude::*;
 use std::sync::LazyLock;
@@ -53,6 +54,9 @@ pub struct ColoredLight {
 }
 
 impl ColoredLight {
+    /// Where the curve is the color's, nm; outside it is constant.
+    pub const SUPPORT_NM: [f64; 2] = RANGE_NM;
+
     /// The curve of a linear Rec. 709 color, each component finite and at least 0.
     pub fn new(rgb: [f64; 3]) -> Self {
         let greatest = (0..3).fold(0, |g, i| if rgb[i] > rgb[g] { i } else { g });

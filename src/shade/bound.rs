@@ -1,0 +1,61 @@
+//! What the grid states its error to be, over all that a scene's spectra can become.
+
+use super::curve::Curve;
+use super::curves::CurveShader;
+use super::table::XyzTable;
+use crate::spectrum::{GridBound, PlanckShape, Quadrature, Roughness, Spectrum, planck};
+
+/// Error of black bodies that are tabulated over ln T, relative: 2e-5 where all that the window
+/// holds of them is 1e-80 of their light, less where it is more.
+const BLACK_BODIES: f64 = 2e-5;
+
+impl CurveShader {
+    /// The largest error of light that comes without mirrors, of all pairs of material and lamp,
+    /// glowing surfaces and the sky's spectrum; see [`Shader::bound`](super::Shader::bound).
+    pub(super) fn bound(&self, quadrature: &Quadrature) -> f64 {
+        let Some(seen_nm) = quadrature.seen_nm() else {
+            return 0.0;
+        };
+        let axis = self.sensor.axis();
+        let spacing = self.tabulated.then(|| XyzTable::spacing(axis));
+        let grid = GridBound::new(&self.sensor, quadrature, spacing);
+        let [near, far] = self
+            .reach
+            .map(|reach| if self.received.shifts() { reach } else { 0.0 })
+            .map(|reach| [seen_nm[0] * (-reach).exp(), seen_nm[1] * reach.exp()]);
+        let rough = |curve: &Curve, range_nm: [f64; 2]| {
+            if curve.constant().is_some() {
+                return Roughness::CONSTANT;
+            }
+            Roughness::of(|nm| curve.at(nm), curve.spectrum(), range_nm, grid.step())
+        };
+        let lamps: Vec<Roughness> = self.emitters.iter().map(|e| rough(&e.curve, far)).collect();
+        let mut worst = 0.0f64;
+        for surface in &self.surfaces {
+            for term in surface.reflecting().flatten() {
+                let own = rough(&term.reflectance, near);
+                for lamp in &lamps {
+                    worst = worst.max(grid.relative(&[own, *lamp]));
+                }
+            }
+            if let Some(emission) = &surface.emission {
+                worst = worst.max(grid.relative(&[rough(&emission.curve, near)]));
+            }
+            if let Some(glow) = &surface.glow {
+                let (kelvin, emissivity) = glow.parts();
+                let shape = Spectrum::Planck(PlanckShape {
+                    temperature_k: kelvin,
+                    unit_at_nm: planck::peak_nm(kelvin),
+                });
+                let light = |nm| planck::radiance(nm, kelvin);
+                let body = Roughness::of(light, &shape, near, grid.step());
+                let factors = [body, rough(emissivity, near)];
+                worst = worst.max(grid.relative(&factors) + BLACK_BODIES);
+            }
+        }
+        if let Some(sky) = self.sky.constant() {
+            worst = worst.max(grid.relative(&[rough(&sky.curve, near)]));
+        }
+        worst
+    }
+}

@@ -1,0 +1,317 @@
+//! How far sums over a sensor's axis can be from integrals: a bound that holds under any shifts.
+//!
+//! The sum's error E(f) = ∫ w f dλ − Σ Wⱼ f(λⱼ) is linear in f, and 0, or nearly so, for constants,
+//! lines and parabolas in u = ln λ. So with Taylor's formula from the window's lower end t₀ up
+//! (Peano 1913; Davis 1975, Interpolation and Approximation, §3.7)
+//!
+//! E(f) = Σᵢ Kᵢ₊₁(t₀) f⁽ⁱ⁾(t₀) + ∫ Kₘ(t) f⁽ᵐ⁾(t) dt, i < m,  |∫ Kₘ f⁽ᵐ⁾| ≤ max |Kₘ| · V(f⁽ᵐ⁻¹⁾),
+//!
+//! where Kₘ(t) is E of (u − t)₊ᵐ⁻¹/(m − 1)! and V the total variation. V does not change when f is
+//! shifted, so neither does the bound. The best of m = 1, 2 and 3 counts: a jump has m = 1 and an
+//! error that falls with the spacing h, a bend m = 2 and h², what is smooth m = 3 and h³. Kernels
+//! come from the sensor's own weights, variations from curves sampled finer than h.
+//!
+//! Added are, by the same reasoning, linear interpolation between the phases of baked curves, cubic
+//! interpolation in tables over ln D, and rounding to f32.
+
+use super::Spectrum;
+use super::log_grid::PHASE_SPACING;
+use super::quadrature::{Quadrature, cuts_nm};
+use super::sensor::Sensor;
+
+/// Steps between two wavelengths in which kernels are integrated: their error is below 1 %.
+const KERNEL_STEPS: i64 = 128;
+
+/// What sampled variations may lack, and kernels: both converge from below.
+const SAFETY: f64 = 1.1;
+
+/// Rounding of an f32 operation.
+const F32: f64 = 6e-8;
+
+/// Most samples of a curve.
+const MOST_SAMPLES: f64 = 1e6;
+
+/// Largest step, in ln λ, in which a curve is sampled: a tenth of the narrowest band of a color.
+const STEP: f64 = 2e-3;
+
+/// How unsmooth a curve is over ln λ, relative to its peak.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Roughness {
+    /// Largest |f|, |f′| and |f″|.
+    largest: [f64; 3],
+    /// Total variations of f, f′ and f″.
+    variation: [f64; 3],
+}
+
+impl Roughness {
+    /// Of what is the same everywhere.
+    pub const CONSTANT: Self = Self {
+        largest: [1.0, 0.0, 0.0],
+        variation: [0.0; 3],
+    };
+
+    /// Of a curve (of the wavelength in nm) that bends where `spectrum` does, over a range of
+    /// wavelengths (nm, ascending), in steps of at most `step` in ln λ.
+    pub fn of(
+        curve: impl Fn(f64) -> f64,
+        spectrum: &Spectrum,
+        range_nm: [f64; 2],
+        step: f64,
+    ) -> Self {
+        let [from, to] = range_nm;
+        let mut cuts = vec![from, to];
+        cuts_nm(spectrum, 1.0, &mut cuts);
+        let knots = spectrum.knots_nm();
+        if let (Some(first), Some(last)) = (knots.first(), knots.last()) {
+            // Beyond its points a curve may jump.
+            cuts.extend([first * (1.0 - 1e-9), last * (1.0 + 1e-9)]);
+        }
+        cuts.retain(|nm| *nm >= from && *nm <= to);
+        cuts.sort_by(f64::total_cmp);
+        cuts.dedup();
+        let step = step.min(STEP).max((to / from).ln() / MOST_SAMPLES);
+        let mut samples = vec![(from.ln(), curve(from))];
+        for pair in cuts.windows(2) {
+            let [low, width] = [pair[0].ln(), (pair[1] / pair[0]).ln()];
+            let count = (width / step).ceil().max(8.0) as u32;
+            samples.extend((1..=count).map(|i| {
+                let part = f64::from(i) / f64::from(count);
+                let nm = pair[0] * (width * part).exp();
+                (low + width * part, curve(nm.min(pair[1])))
+            }));
+        }
+        Self::sampled(&samples)
+    }
+
+    /// Of samples (ln λ, value), ascending.
+    fn sampled(samples: &[(f64, f64)]) -> Self {
+        let peak = samples.iter().map(|s| s.1).fold(0.0, f64::max);
+        if peak <= 0.0 {
+            return Self::CONSTANT;
+        }
+        let mut derivative: Vec<(f64, f64)> = samples.iter().map(|s| (s.0, s.1 / peak)).collect();
+        let mut own = Self::CONSTANT;
+        for order in 0..3 {
+            own.largest[order] = derivative.iter().map(|s| s.1.abs()).fold(0.0, f64::max);
+            let steps = derivative.windows(2);
+            own.variation[order] = steps.map(|pair| (pair[1].1 - pair[0].1).abs()).sum();
+            derivative = quotients(&derivative);
+        }
+        own
+    }
+
+    /// Of the product of two curves, under whatever shifts: by Leibniz's rule.
+    #[must_use]
+    pub fn times(&self, other: &Self) -> Self {
+        let ([_, la, lla], [_, lb, llb]) = (self.largest, other.largest);
+        let ([va, vva, vvva], [vb, vvb, vvvb]) = (self.variation, other.variation);
+        // ∫ |a⁽ⁱ⁾ b⁽ʲ⁾|, either of them taken at its largest.
+        let mixed = |va: f64, lb: f64, vb: f64, la: f64| nothing_of(va, lb).min(nothing_of(vb, la));
+        Self {
+            largest: [1.0, la + lb, lla + 2.0 * nothing_of(la, lb) + llb],
+            variation: [
+                va + vb,
+                vva + vvb + 2.0 * mixed(va, lb, vb, la),
+                vvva + vvvb + 3.0 * (mixed(vva, lb, vb, lla) + mixed(va, llb, vvb, la)),
+            ],
+        }
+    }
+}
+
+/// A product in which nothing of infinitely much is nothing.
+fn nothing_of(a: f64, b: f64) -> f64 {
+    if a == 0.0 || b == 0.0 { 0.0 } else { a * b }
+}
+
+/// Differences of neighbours over their distance, midway.
+fn quotients(samples: &[(f64, f64)]) -> Vec<(f64, f64)> {
+    samples
+        .windows(2)
+        .map(|pair| {
+            let [(a, low), (b, high)] = [pair[0], pair[1]];
+            (0.5 * (a + b), (high - low) / (b - a))
+        })
+        .collect()
+}
+
+/// What a sensor's sums can be off.
+#[derive(Debug, Clone)]
+pub struct GridBound {
+    channels: [Kernel; 3],
+    spacing: f64,
+    wavelengths: f64,
+    table_spacing: Option<f64>,
+}
+
+/// The error of one channel, over that channel of an equal-energy white of value 1.
+#[derive(Debug, Clone, Copy, Default)]
+struct Kernel {
+    /// |Kₘ| at the window's lower end.
+    ends: [f64; 3],
+    /// max |Kₘ|.
+    largest: [f64; 3],
+    /// Largest and sum of |Wⱼ|.
+    weight: f64,
+    weights: f64,
+}
+
+impl GridBound {
+    /// Of a sensor's weights against the quadrature of the same channels, where curves are baked and
+    /// XYZ of curves is tabulated in steps of `table_spacing` in ln D, if it is.
+    pub fn new(sensor: &Sensor, quadrature: &Quadrature, table_spacing: Option<f64>) -> Self {
+        let axis = sensor.axis();
+        let step = axis.spacing() / KERNEL_STEPS as f64;
+        let [from, to] = axis.window_nm();
+        let place = |i: i64| {
+            let nm = axis.wavelength_nm(i as f64 / KERNEL_STEPS as f64);
+            nm.clamp(from, to)
+        };
+        let white = quadrature.white([from, to]);
+        let mut now = [[0.0f64; 3]; 3];
+        let mut channels = [Kernel::default(); 3];
+        for i in (-KERNEL_STEPS..axis.count() as i64 * KERNEL_STEPS).rev() {
+            let within = quadrature.white([place(i), place(i + 1)]);
+            let node = (i + 1) % KERNEL_STEPS == 0;
+            let weights = node
+                .then(|| sensor.weights().get(((i + 1) / KERNEL_STEPS) as usize))
+                .flatten();
+            for c in (0..3).filter(|c| white[*c] > 0.0) {
+                let [mut k1, mut k2, mut k3] = now[c];
+                let kernel = &mut channels[c];
+                kernel.largest[0] = kernel.largest[0].max(k1.abs());
+                if let Some(weights) = weights {
+                    let weight = weights[c] / white[c];
+                    k1 -= weight;
+                    kernel.weight = kernel.weight.max(weight.abs());
+                    kernel.weights += weight.abs();
+                }
+                let before = [k1, k2];
+                kernel.largest[0] = kernel.largest[0].max(k1.abs());
+                k1 += within[c] / white[c];
+                k2 += 0.5 * step * (before[0] + k1);
+                k3 += 0.5 * step * (before[1] + k2);
+                now[c] = [k1, k2, k3];
+                for (largest, k) in kernel.largest.iter_mut().zip(now[c]) {
+                    *largest = largest.max(k.abs());
+                }
+                kernel.ends = now[c].map(f64::abs);
+            }
+        }
+        Self {
+            channels,
+            spacing: axis.spacing(),
+            wavelengths: axis.count() as f64,
+            table_spacing,
+        }
+    }
+
+    /// Steps in ln λ in which a curve is to be sampled for [`Roughness`].
+    pub fn step(&self) -> f64 {
+        0.25 * self.spacing
+    }
+
+    /// The largest error of a channel of the product of curves, each under any shift, over that
+    /// channel of an equal-energy light as bright as the product of their peaks.
+    pub fn relative(&self, factors: &[Roughness]) -> f64 {
+        let error = |kernel: &Kernel| self.channel(kernel, factors);
+        SAFETY * self.channels.iter().map(error).fold(0.0, f64::max)
+    }
+
+    fn channel(&self, kernel: &Kernel, factors: &[Roughness]) -> f64 {
+        let product = factors
+            .iter()
+            .fold(Roughness::CONSTANT, |product, f| product.times(f));
+        let mut taylor = 0.0;
+        let mut sum = f64::INFINITY;
+        for order in 0..3 {
+            taylor += nothing_of(kernel.ends[order], product.largest[order]);
+            let rest = nothing_of(kernel.largest[order], product.variation[order]);
+            sum = sum.min(taylor + rest);
+        }
+        let phases: f64 = factors.iter().map(|f| self.phases(kernel, f)).sum();
+        let tables = self
+            .table_spacing
+            .map_or(0.0, |step| self.tables(kernel, &product, step));
+        // Sums of eight lanes, and a few operations on each value.
+        let rounding = F32 * (self.wavelengths / 8.0 + 16.0) * kernel.weights;
+        // Cubic taps carry the errors of their entries by at most 1.25.
+        sum + 1.25 * (phases + rounding) + tables
+    }
+
+    /// Of lines between the phases of a baked curve: |f − If| ≤ V, δ/4 V(f′), δ²/8 max |f″|. The
+    /// pieces that different wavelengths read do not overlap.
+    fn phases(&self, kernel: &Kernel, f: &Roughness) -> f64 {
+        let step = self.spacing * PHASE_SPACING;
+        let [jump, bend, _] = f.variation;
+        (kernel.weight * jump)
+            .min(kernel.weight * step / 4.0 * bend)
+            .min(kernel.weights * step * step / 8.0 * f.largest[2])
+    }
+
+    /// Of Catmull and Rom's cubic between the entries of a table: its kernels are at most 1.13, δ/4
+    /// and δ²/10. The three steps that it spans overlap for wavelengths that are nearer.
+    fn tables(&self, kernel: &Kernel, product: &Roughness, step: f64) -> f64 {
+        let overlap = (3.0 * step / self.spacing).floor() + 1.0;
+        let [jump, bend, twist] = product.variation;
+        let least = (1.13 * jump)
+            .min(step / 4.0 * bend)
+            .min(step * step / 10.0 * twist);
+        kernel.weight * overlap * least
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::spectrum::LogAxis;
+
+    fn bound(count: usize) -> GridBound {
+        let window = [360.0, 830.0];
+        let sensor = Sensor::cie1931(LogAxis::new(window, count));
+        GridBound::new(&sensor, &Quadrature::cie1931(window), None)
+    }
+
+    fn line(width_nm: f64) -> Roughness {
+        let line = Spectrum::gaussian(560.0, width_nm).unwrap();
+        Roughness::of(|nm| line.at(nm), &line, [100.0, 3000.0], STEP)
+    }
+
+    #[test]
+    fn variations_of_a_gaussian_are_those_of_its_derivatives() {
+        // Up and down; e^(−½) to either side of the slope, there and back; 1 and 2e^(−3/2) of bend.
+        let sigma = 5.0 / 560.0;
+        let expected = [
+            2.0,
+            4.0 * (-0.5f64).exp() / sigma,
+            (2.0 + 8.0 * (-1.5f64).exp()) / (sigma * sigma),
+        ];
+        for (found, expected) in line(5.0).variation.into_iter().zip(expected) {
+            // ln λ is not quite linear over the line.
+            assert!((found / expected - 1.0).abs() < 0.02, "{found} {expected}");
+        }
+    }
+
+    #[test]
+    fn the_bound_falls_with_the_power_that_smoothness_allows() {
+        let [coarse, fine] = [84, 168].map(bound);
+        let ratio = |factors: &[Roughness]| coarse.relative(factors) / fine.relative(factors);
+        let smooth = ratio(&[line(25.0)]);
+        assert!(smooth > 5.5, "{smooth}");
+        let bent = Spectrum::Sampled(
+            crate::spectrum::Sampled::new(
+                &[(500.0, 0.0), (520.0, 1.0), (540.0, 0.0)],
+                crate::spectrum::Beyond::Hold,
+            )
+            .unwrap(),
+        );
+        let bent = Roughness::of(|nm| bent.at(nm), &bent, [100.0, 3000.0], 1e-4);
+        assert!((3.0..5.0).contains(&ratio(&[bent])), "{}", ratio(&[bent]));
+        let narrow = ratio(&[line(0.01)]);
+        assert!((1.5..2.5).contains(&narrow), "{narrow}");
+    }
+
+    #[test]
+    fn a_constant_is_off_by_rounding_alone() {
+        assert!(bound(84).relative(&[Roughness::CONSTANT]) < 3e-6);
+    }
+}
