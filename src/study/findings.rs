@@ -151,7 +151,8 @@ pub struct Errors {
     pub displacement: Option<Percentiles>,
     /// Part of the pixels that see another surface than they should.
     pub mistaken: Option<f64>,
-    /// What the program states the error of radiance to be at most, where it states it.
+    /// What the program states, before it renders, that no shading can err by: of a channel, over
+    /// that of an equal-energy light as bright as the product of the peaks of the spectra in reach.
     pub bound: Option<f64>,
 }
 

@@ -4,7 +4,7 @@ use super::StudyError;
 use super::memory::{forget_peak, peak_mib};
 use crate::film::{Film, develop};
 use crate::queue::{Exposing, Pictures, pictures, write_atomically};
-use crate::render::{Options, Profile, development, motion_mistake, render_profiled};
+use crate::render::{Options, Profile, View, development, motion_mistake, render_profiled};
 use crate::scene::Scene;
 use crate::shot::Shot;
 use crate::trace::Stage;
@@ -96,6 +96,14 @@ pub(super) struct Run {
 }
 
 impl Variant {
+    /// What the program states an error to be at most ([`Shader::bound`](crate::shade::Shader::bound)).
+    pub(super) fn bound(&self, subject: &Subject) -> Result<Option<f64>, StudyError> {
+        let (scene, stage) = (&self.bodies.scene, &self.bodies.stage);
+        let view = View::new(&self.shot, subject.frame, &self.shot.effects, scene, stage)
+            .map_err(|error| motion_mistake(&self.shot, &error))?;
+        Ok(view.shader().bound())
+    }
+
     /// Renders it once.
     pub(super) fn run(&self, subject: &Subject) -> Result<Run, StudyError> {
         let counts = forget_peak();

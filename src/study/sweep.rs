@@ -97,6 +97,9 @@ fn compared(
         errors.displacement = Some(displaced);
         errors.mistaken = Some(mistaken);
     }
+    if knob.phase == "shade" {
+        errors.bound = variant.bound(subject)?;
+    }
     Ok(errors)
 }
 
