@@ -4,5 +4,6 @@
 //! In: a shot without mistakes. Out: a [`Study`].
 
 pub mod findings;
+pub mod report;
 
 pub use findings::Study;
