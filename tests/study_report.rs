@@ -1,7 +1,7 @@
 //! The report of a study: the page, the table and the JSON hold what was found, whatever it is.
 //!
-//! To look at the pages: `cargo test --test study_report`, then open study.html and noisy.html in
-//! target/tmp/study-report.
+//! To look at the pages: `cargo test --test study_report`, then open study/study.html and
+//! noisy/study.html in target/tmp/study-report.
 
 #![expect(clippy::unwrap_used, reason = "helpers of tests fail the test")]
 
@@ -14,6 +14,8 @@ use restframe::study::findings::Sweep;
 use restframe::study::report::{csv, html, json};
 use roxmltree::{Document, Node, ParsingOptions};
 use serde_json::Value;
+use std::fs;
+use std::path::Path;
 
 const SVG: &str = "http://www.w3.org/2000/svg";
 
@@ -169,6 +171,20 @@ fn dots_stand_to_the_right_for_time_and_higher_for_error_by_logarithms() {
     let high = (at("lines, 2 nm")[1] - at("rgb")[1]) / (24.1f64 / 0.0534).ln();
     let low = (at("grid, 168")[1] - at("grid, 84")[1]) / (0.0412f64 / 0.00371).ln();
     assert!((high / low - 1.0).abs() < 1e-3, "{high} {low}");
+    // Curves join what has an error that a logarithm has, coarse to fine.
+    let joined = |family: &str| {
+        let class = format!("curve {family}");
+        let lines = chart
+            .descendants()
+            .filter(|n| n.has_tag_name((SVG, "polyline")));
+        let line = lines
+            .into_iter()
+            .find(|n| n.attribute("class") == Some(&class));
+        line.map(|line| line.attribute("points").unwrap().to_owned())
+    };
+    let ends = [at("spline, 84"), at("spline, 336")].map(|[x, y]| format!("{x},{y}"));
+    assert_eq!(joined("spline"), Some(ends.join(" ")));
+    assert_eq!(joined("exact"), None);
     // The reference has no error and stands lowest, and the caption says so.
     assert!(at("exact")[1] > at("spline, 336")[1]);
     assert!(words(section(&page, "sweep-1")).contains("On the floor of the chart"));
@@ -292,7 +308,9 @@ fn names_are_shown_as_they_are_written() {
     let page = read(&text);
     let title = page.descendants().find(|n| n.has_tag_name("h1")).unwrap();
     assert_eq!(words(title), AWKWARD);
-    assert!(words(section(&page, "sweep-2")).contains("F64 & meshes of <twice> the fineness."));
+    assert!(
+        words(section(&page, "sweep-2")).contains("against f64 & meshes of <twice> the fineness.")
+    );
 }
 
 #[test]
@@ -437,12 +455,16 @@ fn what_is_no_number_is_no_null_in_the_json() {
 }
 
 #[test]
-fn equal_studies_give_equal_bytes_and_pages_to_look_at() {
-    let folder = std::path::Path::new(env!("CARGO_TARGET_TMPDIR")).join("study-report");
-    std::fs::create_dir_all(&folder).unwrap();
+fn equal_studies_give_equal_bytes_and_files_to_look_at() {
     for (name, study) in [("study", study()), ("noisy", noisy())] {
-        let page = html(&study);
-        assert!(page == html(&study.clone()));
-        std::fs::write(folder.join(format!("{name}.html")), page).unwrap();
+        let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("study-report");
+        let folder = folder.join(name);
+        fs::create_dir_all(&folder).unwrap();
+        let page: fn(&Study) -> String = html;
+        for (extension, text) in [("html", page), ("csv", csv), ("json", json)] {
+            let first = text(&study);
+            assert!(first == text(&study.clone()), "{name}.{extension}");
+            fs::write(folder.join(format!("study.{extension}")), first).unwrap();
+        }
     }
 }

@@ -166,6 +166,10 @@ impl Axis {
         let inside = |value: f64| value >= low * (1.0 - SLACK) && value <= high * (1.0 + SLACK);
         let decades = exponent(low)..=exponent(high);
         let span = high.log10() - low.log10();
+        // Within half a decade 1, 2 and 5 are too few, and logarithms nearly straight.
+        if span < 0.5 && self.factor() == 0 {
+            return self.linear_ticks(most);
+        }
         let written = low >= 0.9e-3 && high <= 1.1e5;
         let finely = span * 3.0 <= most as f64;
         let stride = (span / most as f64).ceil().max(1.0) as i32;
@@ -292,6 +296,9 @@ mod tests {
             assert!(near(0) && near(1), "{range:?}: {:?}", axis.range);
             assert!(labels(&axis, 12).len() >= 2);
         }
+        let narrow = Axis::around("time", "ms", [110.0, 180.0]);
+        let expected = ["100", "120", "140", "160", "180", "200"];
+        assert_eq!(labels(&narrow, 6), expected);
     }
 
     #[test]

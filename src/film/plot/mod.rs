@@ -36,7 +36,7 @@ pub struct Plot {
 /// Axes and what is drawn between them.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Panel {
-    /// A line above it.
+    /// A line above it; empty for none.
     pub title: String,
     /// The horizontal axis.
     pub x: Axis,

@@ -9,7 +9,7 @@ use super::layout::{CHARACTER, Rect, label};
 /// Size of the font of labels, in sizes of that of the axes.
 const SIZE: f64 = 0.86;
 /// Between a dot's middle and its label, in sizes of the label's font.
-const GAPS: [f64; 2] = [0.75, 1.35];
+const GAPS: [f64; 2] = [0.95, 1.4];
 /// Where a label stands from its dot, the best first.
 const SIDES: [[f64; 2]; 8] = [
     [1.0, 0.0],

@@ -42,7 +42,7 @@ fn row(study: &Study, advice: &Recommendation) -> Markup {
                 Some(setting) => {
                     td {
                         (setting)
-                        @if is_current(study, advice, setting) { em { " – as the shot is" } }
+                        @if is_current(study, advice, setting) { " " em { "– as the shot is" } }
                     }
                     td.n { @if let Some(ratio) = advice.time_ratio { (time_ratio(study, ratio)) } }
                     td { @if let Some(toml) = &advice.toml { pre { (pasted(&advice.knob, toml)) } } }

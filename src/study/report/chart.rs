@@ -28,7 +28,7 @@ const PAGE: Page = Page {
 };
 /// Colours that no kind of colour vision confuses, after Okabe & Ito 2008, none too light for white
 /// paper.
-pub(super) const COLORS: [Color; 6] = [
+const COLORS: [Color; 6] = [
     [0, 114, 178],
     [213, 94, 0],
     [0, 145, 105],
@@ -161,56 +161,61 @@ impl<'a> Easel<'a> {
         }
     }
 
+    /// Lines below dots below rings.
     fn series(&self) -> Vec<Series> {
+        let families = families(self.sweep);
         let mut series = Vec::new();
         if self.clock == Clock::Frame {
             series.push(self.front());
         }
-        let families = families(self.sweep);
-        for family in &families {
-            let dots = |dot: &&Dot<'_>| dot.point.family == *family;
-            let line = self.drawn(family, Stroke::Solid(1.8), dots);
-            if line.points.len() > 1 {
-                series.push(line);
-            }
-        }
-        let ringed: [(_, f64, Color, fn(&Point) -> bool); 2] = [
-            ("Pareto front", 8.0, FRONT, |point| point.pareto),
-            ("as the shot is", 12.0, CURRENT, |point| point.current),
-        ];
-        for (name, radius, color, belongs) in ringed {
-            let rings = self.drawn(name, Stroke::Rings(radius), |dot| belongs(dot.point));
-            series.push(Series { color, ..rings });
-        }
-        for family in families {
-            let dots = |dot: &&Dot<'_>| dot.point.family == family;
-            let remarks = self.dots.iter().filter(dots).map(|dot| self.remark(dot));
-            series.push(Series {
-                remarks: remarks.collect(),
-                ..self.drawn(family, Stroke::Dots(5.0), dots)
-            });
-        }
+        let lines = families.iter().map(|family| self.line(family));
+        series.extend(lines.filter(|line| line.points.len() > 1));
+        series.extend(families.iter().map(|family| self.family_dots(family)));
+        series.push(self.rings("Pareto front", 8.0, FRONT, |point| point.pareto));
+        series.push(self.rings("as the shot is", 12.0, CURRENT, |point| point.current));
         series.retain(|series| !series.points.is_empty());
         series
     }
 
+    /// Only through errors that a logarithm has: a line to the floor would lead nowhere.
+    fn line(&self, family: &str) -> Series {
+        self.drawn(family, Stroke::Solid(1.8), |dot| {
+            dot.point.family == family && matches!(dot.error, Error::Measured(_))
+        })
+    }
+
+    fn family_dots(&self, family: &str) -> Series {
+        let ours = self.dots.iter().filter(|dot| dot.point.family == family);
+        Series {
+            remarks: ours.map(|dot| self.remark(dot)).collect(),
+            ..self.drawn(family, Stroke::Dots(5.0), |dot| dot.point.family == family)
+        }
+    }
+
+    fn rings(&self, name: &str, radius: f64, color: Color, some: fn(&Point) -> bool) -> Series {
+        Series {
+            color,
+            ..self.drawn(name, Stroke::Rings(radius), |dot| some(dot.point))
+        }
+    }
+
     /// Some of the dots, joined in the order of the table, in the colour of the family `name`.
-    fn drawn(&self, name: &str, stroke: Stroke, some: impl Fn(&&Dot<'a>) -> bool) -> Series {
+    fn drawn(&self, name: &str, stroke: Stroke, some: impl Fn(&Dot<'_>) -> bool) -> Series {
+        let dots = self.dots.iter().filter(|dot| some(dot));
         Series {
             name: name.to_owned(),
             color: color(self.sweep, name),
             stroke,
-            points: self.dots.iter().filter(some).map(|d| self.at(d)).collect(),
+            points: dots.map(|dot| self.at(dot)).collect(),
             remarks: Vec::new(),
         }
     }
 
     /// The staircase below which no setting is.
     fn front(&self) -> Series {
-        let mut corners: Vec<[f64; 2]> = Vec::new();
-        let mut front: Vec<[f64; 2]> = Vec::new();
         let best = self.dots.iter().filter(|dot| dot.point.pareto);
-        front.extend(best.map(|dot| self.at(dot)));
+        let mut front: Vec<[f64; 2]> = best.map(|dot| self.at(dot)).collect();
+        let mut corners: Vec<[f64; 2]> = Vec::new();
         front.sort_by(|a, b| a[0].total_cmp(&b[0]));
         for [x, y] in front {
             if let Some([_, before]) = corners.last() {
@@ -260,20 +265,18 @@ impl<'a> Easel<'a> {
     }
 
     fn remarks(&self) -> Vec<String> {
-        let floored = |dot: &&Dot<'_>| match dot.error {
+        let floored = |dot: &Dot<'_>| match dot.error {
             Error::Measured(value) => value <= self.y.range[0],
             other => other == Error::None,
         };
-        let beyond = |dot: &&Dot<'_>| dot.error == Error::Beyond;
         let mut remarks = Vec::new();
-        let floor = self.dots.iter().filter(floored).count();
-        if floor > 0 {
+        if self.dots.iter().any(floored) {
             remarks.push(
                 "On the floor of the chart stands what has no error, or none that it can show."
                     .to_owned(),
             );
         }
-        if self.dots.iter().any(|dot| beyond(&dot)) {
+        if self.dots.iter().any(|dot| dot.error == Error::Beyond) {
             remarks.push("At its ceiling stands what has an error beyond all numbers.".to_owned());
         }
         let lacking = self.sweep.points.len() - self.dots.len();

@@ -6,6 +6,9 @@ use maud::{Markup, html};
 
 /// The phases of the shot as it is, with bars.
 pub(super) fn phases(study: &Study) -> Markup {
+    if study.phases.is_empty() {
+        return html! {};
+    }
     let largest = study.phases.iter().map(|p| p.share).fold(0.0, f64::max);
     let width = |share: f64| {
         let part = share / largest;

@@ -15,7 +15,7 @@ pub(super) struct Measure {
 /// What people see comes first.
 const MEASURES: [Measure; 3] = [
     Measure {
-        label: "ΔE2000 that 99 % of the pixels do not exceed",
+        label: "ΔE2000, 99th percentile",
         unit: "",
         of: |errors| errors.delta_e.map(p99),
     },
@@ -25,7 +25,7 @@ const MEASURES: [Measure; 3] = [
         of: |errors| Some(errors.radiance),
     },
     Measure {
-        label: "displacement that 99 % of the pixels do not exceed",
+        label: "displacement, 99th percentile",
         unit: "px",
         of: |errors| errors.displacement.map(p99),
     },

@@ -37,7 +37,7 @@ pub(super) fn number(value: f64) -> String {
 /// Seconds of wall clock, such as 4.1 ms.
 pub(super) fn time(seconds: f64) -> String {
     let (unit, name) = unit_of_time(seconds);
-    format!("{} {name}", number(seconds / unit))
+    with_unit(seconds / unit, &format!(" {name}"))
 }
 
 /// The unit in which a time is said, in seconds, and its name.
@@ -64,17 +64,17 @@ pub(super) fn range(timing: Timing) -> Option<String> {
 
 /// A part of a whole, such as 12 %.
 pub(super) fn percent(part: f64) -> String {
-    format!("{} %", number(part * 100.0))
+    with_unit(part * 100.0, " %")
 }
 
 /// A ratio, such as 1.7×.
 pub(super) fn times(ratio: f64) -> String {
-    format!("{}×", number(ratio))
+    with_unit(ratio, "×")
 }
 
 /// Memory, such as 120 MiB.
 pub(super) fn mebibytes(mib: f64) -> String {
-    format!("{} MiB", number(mib))
+    with_unit(mib, " MiB")
 }
 
 /// The size of files, in thousands.
@@ -86,6 +86,12 @@ pub(super) fn bytes(count: u64) -> String {
         count if count >= 1e3 => format!("{} kB", number(count / 1e3)),
         count => format!("{count} B"),
     }
+}
+
+/// What is no number has no unit either.
+fn with_unit(value: f64, unit: &str) -> String {
+    let unit = if value.is_nan() { "" } else { unit };
+    number(value) + unit
 }
 
 fn without_zeros(digits: &str) -> &str {

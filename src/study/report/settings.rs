@@ -54,7 +54,7 @@ const COLUMNS: [Column; 13] = [
         cell: |_, point| error(point, |e| e.delta_e.map(mean)),
     },
     Column {
-        title: "ΔE2000 99 %",
+        title: "ΔE2000 99\u{a0}%",
         cell: |_, point| error(point, |e| e.delta_e.map(p99)),
     },
     Column {
@@ -62,7 +62,7 @@ const COLUMNS: [Column; 13] = [
         cell: |_, point| error(point, |e| e.delta_e.map(worst)),
     },
     Column {
-        title: "Shift 99 %, px",
+        title: "Shift 99\u{a0}%, px",
         cell: |_, point| error(point, |e| e.displacement.map(p99)),
     },
     Column {
@@ -135,8 +135,8 @@ pub(super) fn table(study: &Study, sweep: &Sweep) -> Markup {
                     td.n { (i + 1) }
                     td.setting {
                         (swatch(sweep, &point.family)) (point.setting)
-                        @if point.current { em { " – as the shot is" } }
-                        @if point.errors.is_none() { em { " – the reference" } }
+                        @if point.current { " " em { "– as the shot is" } }
+                        @if point.errors.is_none() { " " em { "– the reference" } }
                     }
                     @for column in &columns {
                         td.n { @match (column.cell)(&context, point) {

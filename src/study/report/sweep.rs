@@ -16,7 +16,7 @@ pub(super) fn section(study: &Study, sweep: &Sweep, place: usize) -> Markup {
             p {
                 (sentence(&sweep.what)) " It touches the phase “" (sweep.phase) "”."
                 @if !sweep.points.is_empty() {
-                    " Errors are against: " (sentence(&sweep.reference))
+                    " Errors are measured against " (sweep.reference) "."
                 }
             }
             @if let Some(note) = &sweep.note { p.note { (sentence(note)) } }
