@@ -91,6 +91,7 @@ fn figure(readings: &[(f64, f64, Probe)]) -> String {
                 .map(|quarter| f64::from(quarter) / 4.0)
                 .map(|angle| [angle, closed_form(*beta, angle)])
                 .collect(),
+            remarks: Vec::new(),
         })
         .collect();
     series.push(Series {
@@ -101,6 +102,7 @@ fn figure(readings: &[(f64, f64, Probe)]) -> String {
             .iter()
             .map(|(_, angle, probe)| [*angle, from_light(probe)])
             .collect(),
+        remarks: Vec::new(),
     });
     let angle = Axis::new("viewing angle φ", "°", Scale::Linear, [-90.0, 90.0]);
     let plot = Plot {

@@ -173,6 +173,7 @@ fn series(wavelengths: &[f64], [surface, thermal, sum]: [Vec<f64>; 3]) -> Vec<Se
             .zip(values)
             .map(|(x, y)| [*x, y])
             .collect(),
+        remarks: Vec::new(),
     };
     vec![
         series("sum", SUM, Stroke::Solid(5.0), sum),

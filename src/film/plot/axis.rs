@@ -62,6 +62,17 @@ impl Axis {
         Self::new(label, unit, Scale::Log, [power(low), power(high)])
     }
 
+    /// A logarithmic axis that ends at 1, 2 or 5 times powers of ten, around values that are
+    /// finite and above 0.
+    pub fn around(label: &str, unit: &str, [least, largest]: [f64; 2]) -> Self {
+        let largest = largest.max(least).clamp(1e-290, 1e290);
+        let least = least.clamp(1e-290, largest);
+        let high = round_up(largest * 1.05);
+        // 1, 2 and 5 are their own inverses but for a power of ten.
+        let low = 1.0 / round_up(1.05 / least);
+        Self::new(label, unit, Scale::Log, [low.min(high / 2.0), high])
+    }
+
     /// An axis over a range.
     pub fn new(label: &str, unit: &str, scale: Scale, range: [f64; 2]) -> Self {
         Self {
@@ -155,6 +166,10 @@ impl Axis {
         let inside = |value: f64| value >= low * (1.0 - SLACK) && value <= high * (1.0 + SLACK);
         let decades = exponent(low)..=exponent(high);
         let span = high.log10() - low.log10();
+        // Within half a decade 1, 2 and 5 are too few, and logarithms nearly straight.
+        if span < 0.5 && self.factor() == 0 {
+            return self.linear_ticks(most);
+        }
         let written = low >= 0.9e-3 && high <= 1.1e5;
         let finely = span * 3.0 <= most as f64;
         let stride = (span / most as f64).ceil().max(1.0) as i32;
@@ -213,7 +228,8 @@ fn round_up(value: f64) -> f64 {
     digit.unwrap_or(10.0) * power
 }
 
-fn superscript(exponent: i32) -> String {
+/// An exponent as it stands above the line, such as ⁻¹² for −12.
+pub fn superscript(exponent: i32) -> String {
     let raised = |sign: char| match sign {
         '-' => '⁻',
         '1' => '¹',
@@ -268,6 +284,24 @@ mod tests {
     }
 
     #[test]
+    fn an_axis_around_values_has_labels_at_both_ends() {
+        for (range, ends) in [
+            ([1.1, 1.9], [1.0, 2.0]),
+            ([3.0, 3.0], [2.0, 5.0]),
+            ([0.04, 7.0], [0.02, 10.0]),
+            ([0.9, 0.99], [0.5, 2.0]),
+        ] {
+            let axis = Axis::around("time", "s", range);
+            let near = |i: usize| (axis.range[i] / ends[i] - 1.0).abs() < 1e-12;
+            assert!(near(0) && near(1), "{range:?}: {:?}", axis.range);
+            assert!(labels(&axis, 12).len() >= 2);
+        }
+        let narrow = Axis::around("time", "ms", [110.0, 180.0]);
+        let expected = ["100", "120", "140", "160", "180", "200"];
+        assert_eq!(labels(&narrow, 6), expected);
+    }
+
+    #[test]
     fn the_largest_and_the_smallest_numbers_have_axes() {
         for value in [
             f64::MAX,
@@ -281,6 +315,7 @@ mod tests {
             let mut axes = vec![Axis::from_zero("", "", value)];
             if value > 0.0 {
                 axes.push(Axis::decades("", "", [value * 1e-6, value]));
+                axes.push(Axis::around("", "", [value * 0.5, value]));
             }
             for axis in axes {
                 assert!(axis.range[0] < axis.range[1] && axis.range[1].is_finite());

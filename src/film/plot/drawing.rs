@@ -33,6 +33,20 @@ pub struct Mark {
     pub color: Color,
     /// Its shape.
     pub shape: Shape,
+    /// What is told when it is pointed at.
+    pub tip: Option<String>,
+}
+
+impl Mark {
+    /// A mark of which nothing is told.
+    pub(super) fn new(class: &str, color: Color, shape: Shape) -> Self {
+        Self {
+            class: class.to_owned(),
+            color,
+            shape,
+            tip: None,
+        }
+    }
 }
 
 /// The shape of a mark, pixels.
@@ -60,6 +74,15 @@ pub enum Shape {
         center: [f64; 2],
         /// Its radius.
         radius: f64,
+    },
+    /// A circle.
+    Ring {
+        /// Its center.
+        center: [f64; 2],
+        /// Its radius, to the middle of the stroke.
+        radius: f64,
+        /// Width of the stroke.
+        width: f64,
     },
     /// A line of text.
     Text(Text),

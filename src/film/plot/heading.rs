@@ -14,14 +14,11 @@ pub(super) fn caption(plot: &Plot, page: Page) -> (Group, f64) {
     for (i, line) in plot.caption.iter().enumerate() {
         base += 1.45 * size;
         let at = [page.font, base];
-        marks.push(Mark {
-            class: "caption".to_owned(),
-            color: INK,
-            shape: Shape::Text(Text {
-                bold: i == 0,
-                ..Text::new(at, size, &shortened(line, most))
-            }),
-        });
+        let text = Text {
+            bold: i == 0,
+            ..Text::new(at, size, &shortened(line, most))
+        };
+        marks.push(Mark::new("caption", INK, Shape::Text(text)));
     }
     let id = "caption".to_owned();
     (Group { id, marks }, base)
@@ -39,8 +36,9 @@ fn shortened(line: &str, most: usize) -> String {
     characters[..head].iter().chain(&['…']).chain(end).collect()
 }
 
-/// Each name once, in a row.
-pub(super) fn legend(plot: &Plot, start: [f64; 2], font: f64) -> Group {
+/// Each name once, in rows as long as the page is wide, and where they end.
+pub(super) fn legend(plot: &Plot, start: [f64; 2], page: Page) -> (Group, f64) {
+    let font = page.font;
     let mut named: Vec<&Series> = Vec::new();
     for series in plot.panels.iter().flat_map(|panel| &panel.series) {
         if named.iter().all(|known| known.name != series.name) {
@@ -49,12 +47,17 @@ pub(super) fn legend(plot: &Plot, start: [f64; 2], font: f64) -> Group {
     }
     let sample = 2.2 * font;
     let mut marks = Vec::new();
-    let [mut x, base] = start;
+    let [mut x, mut base] = start;
     for series in named {
+        let length = sample + (0.5 + series.name.chars().count() as f64 * CHARACTER) * font;
+        if x > start[0] && x + length > page.size[0] {
+            x = start[0];
+            base += 1.6 * font;
+        }
         let y = base - 0.32 * font;
         let class = format!("sample {}", series.name);
         let ends = match series.stroke {
-            Stroke::Dots(_) => vec![[x + sample / 2.0, y]],
+            Stroke::Dots(_) | Stroke::Rings(_) => vec![[x + sample / 2.0, y]],
             _ => vec![[x, y], [x + sample, y]],
         };
         marks.extend(strokes(&class, series, &ends, font));
@@ -64,10 +67,10 @@ pub(super) fn legend(plot: &Plot, start: [f64; 2], font: f64) -> Group {
             Anchor::Start,
             Text::new(at, font, &series.name),
         ));
-        x += sample + 2.2 * font + series.name.chars().count() as f64 * font * CHARACTER;
+        x += length + 1.7 * font;
     }
     let id = "legend".to_owned();
-    Group { id, marks }
+    (Group { id, marks }, base)
 }
 
 #[cfg(test)]

@@ -7,7 +7,8 @@ use super::axis::Tick;
 use super::drawing::{Anchor, Drawing, Group, Mark, Shape, Text};
 use super::heading::{caption, legend};
 use super::line::{simplified, visible_runs};
-use super::{Axis, Color, Panel, Plot, Series, Stroke};
+use super::remarks::beside;
+use super::{Axis, Color, Panel, Plot, Remark, Series, Stroke};
 
 /// The page that a plot is drawn on.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -25,6 +26,8 @@ const GRID: Color = [222, 222, 222];
 pub(super) const CHARACTER: f64 = 0.58;
 /// How far a drawn line may be from the curve, pixels.
 const TOLERANCE: f64 = 0.04;
+/// Width of the stroke of rings, in the usual font.
+const RING: f64 = 1.8;
 /// The font that widths of strokes are given for, pixels.
 const USUAL_FONT: f64 = 16.0;
 
@@ -33,8 +36,8 @@ pub fn lay_out(plot: &Plot, page: Page) -> Drawing {
     let [width, height] = page.size;
     let font = page.font;
     let (caption, below) = caption(plot, page);
-    let legend_base = below + 1.7 * font;
-    let mut groups = vec![caption, legend(plot, [font, legend_base], font)];
+    let (legend, legend_base) = legend(plot, [font, below + 1.7 * font], page);
+    let mut groups = vec![caption, legend];
     let top = legend_base + 0.7 * font;
     let share = width / plot.panels.len().max(1) as f64;
     for (i, panel) in plot.panels.iter().enumerate() {
@@ -57,11 +60,7 @@ pub fn lay_out(plot: &Plot, page: Page) -> Drawing {
 
 /// A line through points on the page, or dots there, as a series is drawn.
 pub(super) fn strokes(class: &str, series: &Series, points: &[[f64; 2]], font: f64) -> Vec<Mark> {
-    let mark = |shape| Mark {
-        class: class.to_owned(),
-        color: series.color,
-        shape,
-    };
+    let mark = |shape| Mark::new(class, series.color, shape);
     let scale = font / USUAL_FONT;
     let line = |width: f64, dash: Option<f64>| {
         vec![mark(Shape::Line {
@@ -82,13 +81,23 @@ pub(super) fn strokes(class: &str, series: &Series, points: &[[f64; 2]], font: f
                 })
             })
             .collect(),
+        Stroke::Rings(radius) => points
+            .iter()
+            .map(|center| {
+                mark(Shape::Ring {
+                    center: *center,
+                    radius: radius * scale,
+                    width: RING * scale,
+                })
+            })
+            .collect(),
     }
 }
 
 #[derive(Debug, Clone, Copy)]
-struct Rect {
-    corner: [f64; 2],
-    size: [f64; 2],
+pub(super) struct Rect {
+    pub(super) corner: [f64; 2],
+    pub(super) size: [f64; 2],
 }
 
 /// A panel on its part of the page.
@@ -131,12 +140,18 @@ impl<'a> Sheet<'a> {
     fn marks(&self) -> Vec<Mark> {
         let mut marks = self.tints();
         marks.extend(self.grid());
-        for series in &self.panel.series {
-            marks.extend(self.curve(series));
-        }
+        let drawn: Vec<Mark> = self
+            .panel
+            .series
+            .iter()
+            .flat_map(|s| self.curve(s))
+            .collect();
+        let beside = beside(&self.remarked(), &drawn, self.area, self.font);
+        marks.extend(drawn);
         let corners = [[0.0, 1.0], [0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
         marks.push(self.line("frame", INK, &corners));
         marks.extend(self.labels());
+        marks.extend(beside);
         marks
     }
 
@@ -150,14 +165,11 @@ impl<'a> Sheet<'a> {
         inside
             .map(|tint| {
                 let start = self.x(self.panel.x.place(tint.range[0]));
-                Mark {
-                    class: "tint".to_owned(),
-                    color: tint.color,
-                    shape: Shape::Rect {
-                        corner: [start, self.area.corner[1]],
-                        size: [end - start, self.area.size[1]],
-                    },
-                }
+                let shape = Shape::Rect {
+                    corner: [start, self.area.corner[1]],
+                    size: [end - start, self.area.size[1]],
+                };
+                Mark::new("tint", tint.color, shape)
             })
             .collect()
     }
@@ -185,32 +197,57 @@ impl<'a> Sheet<'a> {
     /// A thin line between places on the axes.
     fn line(&self, class: &str, color: Color, places: &[[f64; 2]]) -> Mark {
         let points = places.iter().map(|[x, y]| [self.x(*x), self.y(*y)]);
-        Mark {
-            class: class.to_owned(),
-            color,
-            shape: Shape::Line {
-                points: points.collect(),
-                width: self.font / USUAL_FONT,
-                dash: None,
-            },
-        }
+        let shape = Shape::Line {
+            points: points.collect(),
+            width: self.font / USUAL_FONT,
+            dash: None,
+        };
+        Mark::new(class, color, shape)
     }
 
     fn curve(&self, series: &Series) -> Vec<Mark> {
         let class = format!("curve {}", series.name);
-        let Panel { x, y, .. } = self.panel;
-        let on_page = |p: &[f64; 2]| [self.x(x.place(p[0])), self.y(y.place(p[1]))];
-        if let Stroke::Dots(_) = series.stroke {
-            let shown = series.points.iter().filter(|p| !y.hides(p[1]));
-            let dots: Vec<_> = shown.map(on_page).collect();
-            return strokes(&class, series, &dots, self.font);
+        if series.is_dotted() {
+            let (dots, remarks): (Vec<_>, Vec<_>) = self.dots(series).unzip();
+            let mut marks = strokes(&class, series, &dots, self.font);
+            for (mark, remark) in marks.iter_mut().zip(remarks) {
+                mark.tip = remark.map(|remark| remark.tip.clone());
+            }
+            return marks;
         }
-        let runs = visible_runs(&series.points, y).into_iter();
+        let runs = visible_runs(&series.points, &self.panel.y).into_iter();
         runs.flat_map(|run| {
-            let line: Vec<_> = run.iter().map(on_page).collect();
+            let line: Vec<_> = run.iter().map(|p| self.on_page(p)).collect();
             strokes(&class, series, &simplified(&line, TOLERANCE), self.font)
         })
         .collect()
+    }
+
+    fn on_page(&self, [x, y]: &[f64; 2]) -> [f64; 2] {
+        let Panel {
+            x: across, y: up, ..
+        } = self.panel;
+        [self.x(across.place(*x)), self.y(up.place(*y))]
+    }
+
+    /// The dots of a series that its axis shows, each with what is said of it.
+    fn dots<'b>(&self, series: &'b Series) -> impl Iterator<Item = ([f64; 2], Option<&'b Remark>)> {
+        let remarks = series.remarks.iter().map(Some);
+        let points = series
+            .points
+            .iter()
+            .zip(remarks.chain(std::iter::repeat(None)));
+        let shown = points.filter(|(point, _)| !self.panel.y.hides(point[1]));
+        shown.map(|(point, remark)| (self.on_page(point), remark))
+    }
+
+    fn remarked(&self) -> Vec<([f64; 2], &'a Remark)> {
+        let panel: &'a Panel = self.panel;
+        let dotted = panel.series.iter().filter(|series| series.is_dotted());
+        dotted
+            .flat_map(|series| self.dots(series))
+            .filter_map(|(at, remark)| Some((at, remark?)))
+            .collect()
     }
 
     fn labels(&self) -> Vec<Mark> {
@@ -252,11 +289,7 @@ impl<'a> Sheet<'a> {
 }
 
 pub(super) fn label(class: &str, anchor: Anchor, text: Text) -> Mark {
-    Mark {
-        class: class.to_owned(),
-        color: INK,
-        shape: Shape::Text(Text { anchor, ..text }),
-    }
+    Mark::new(class, INK, Shape::Text(Text { anchor, ..text }))
 }
 
 /// Characters of the longest label.
@@ -285,6 +318,7 @@ mod tests {
             points: (1..100)
                 .map(|i| [f64::from(i), factor * f64::from(i)])
                 .collect(),
+            remarks: Vec::new(),
         };
         let panel = |x: Axis, y: Axis| Panel {
             title: "a panel".to_owned(),

@@ -13,9 +13,10 @@ mod drawing;
 mod heading;
 mod layout;
 mod line;
+mod remarks;
 mod svg;
 
-pub use axis::{Axis, Scale};
+pub use axis::{Axis, Scale, superscript};
 pub use drawing::{Anchor, Drawing, Group, Mark, Shape, Text};
 pub use layout::{Page, lay_out};
 pub use svg::svg;
@@ -35,7 +36,7 @@ pub struct Plot {
 /// Axes and what is drawn between them.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Panel {
-    /// A line above it.
+    /// A line above it; empty for none.
     pub title: String,
     /// The horizontal axis.
     pub x: Axis,
@@ -69,6 +70,26 @@ pub struct Series {
     pub stroke: Stroke,
     /// Values on both axes, in the order in which they are joined.
     pub points: Vec<[f64; 2]>,
+    /// What is said of each dot, in the order of the points; empty to say nothing.
+    pub remarks: Vec<Remark>,
+}
+
+impl Series {
+    /// Whether its points are not joined.
+    fn is_dotted(&self) -> bool {
+        matches!(self.stroke, Stroke::Dots(_) | Stroke::Rings(_))
+    }
+}
+
+/// What is said of a dot.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Remark {
+    /// Stands beside it where there is room.
+    pub label: String,
+    /// Stands there instead where there is less.
+    pub short: String,
+    /// Is told by whoever shows the drawing when the dot is pointed at.
+    pub tip: String,
 }
 
 /// How a series is drawn. Widths and radii are those of a font of 16 pixels, and scale with it.
@@ -80,4 +101,6 @@ pub enum Stroke {
     Dashed(f64),
     /// Dots of this radius, not joined.
     Dots(f64),
+    /// Rings of this radius, not joined.
+    Rings(f64),
 }

@@ -17,8 +17,10 @@ pub fn svg(drawing: &Drawing) -> String {
     for group in &drawing.groups {
         text += &format!("<g id=\"{}\">\n", escaped(&group.id));
         for mark in &group.marks {
-            text += &element(mark);
-            text.push('\n');
+            text += &match &mark.tip {
+                Some(tip) => format!("<g><title>{}</title>{}</g>\n", escaped(tip), element(mark)),
+                None => element(mark) + "\n",
+            };
         }
         text += "</g>\n";
     }
@@ -61,6 +63,18 @@ fn element(mark: &Mark) -> String {
             number(center[0]),
             number(center[1]),
             number(*radius),
+        ),
+        Shape::Ring {
+            center,
+            radius,
+            width,
+        } => format!(
+            "<circle class=\"{class}\" cx=\"{}\" cy=\"{}\" r=\"{}\" fill=\"none\" \
+             stroke=\"{color}\" stroke-width=\"{}\"/>",
+            number(center[0]),
+            number(center[1]),
+            number(*radius),
+            number(*width),
         ),
         Shape::Text(text) => text_element(&class, &color, text),
     }

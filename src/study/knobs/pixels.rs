@@ -34,7 +34,7 @@ pub(super) fn samples(start: &Start<'_>) -> Knob {
             },
             ..start.variant(
                 format!("{count} samples, {name}"),
-                Some(format!("samples = {count}, filter = \"{name}\"")),
+                Some(format!("samples = {count}\nfilter = \"{name}\"")),
             )
         }
     };
@@ -86,13 +86,13 @@ pub(super) fn output(start: &Start<'_>) -> Knob {
             Format::Exr,
             Depth::Half,
             "exr, half",
-            "formats = [\"exr\"], depth = \"half\"",
+            "formats = [\"exr\"]\ndepth = \"half\"",
         ),
         variant(
             Format::Exr,
             Depth::Float,
             "exr, float",
-            "formats = [\"exr\"], depth = \"float\"",
+            "formats = [\"exr\"]\ndepth = \"float\"",
         ),
     ];
     knob

@@ -38,7 +38,7 @@ pub(super) fn spectra(start: &Start<'_>, called: &Called) -> Knob {
             line_spacing: nm,
             ..own
         };
-        let toml = format!("spectra = \"lines\", line_spacing = {nm:?}");
+        let toml = format!("spectra = \"lines\"\nline_spacing = {nm:?}");
         variant(format!("lines, {nm} nm"), "lines", accuracy, toml)
     }));
     for (word, held, counts) in [
@@ -51,7 +51,7 @@ pub(super) fn spectra(start: &Start<'_>, called: &Called) -> Knob {
                 wavelengths,
                 ..own
             };
-            let toml = format!("spectra = \"{word}\", wavelengths = {wavelengths}");
+            let toml = format!("spectra = \"{word}\"\nwavelengths = {wavelengths}");
             let setting = format!("{word}, {wavelengths} wavelengths");
             variant(setting, word, accuracy, toml)
         }));

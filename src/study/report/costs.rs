@@ -1,0 +1,103 @@
+//! Where the time goes: phases, effects, and what the 1990 paper says of them.
+
+use super::quantity::{NOTHING, percent, time};
+use crate::study::findings::{EffectCost, Study};
+use maud::{Markup, html};
+
+/// The phases of the shot as it is, with bars.
+pub(super) fn phases(study: &Study) -> Markup {
+    if study.phases.is_empty() {
+        return html! {};
+    }
+    let largest = study.phases.iter().map(|p| p.share).fold(0.0, f64::max);
+    let width = |share: f64| {
+        let part = share / largest;
+        if part.is_finite() {
+            100.0 * part.clamp(0.0, 1.0)
+        } else {
+            0.0
+        }
+    };
+    html! {
+        section #phases {
+            h2 { "Where the time goes" }
+            p { "The shot as it is. Times are summed over threads." }
+            div.scroll { table {
+                thead { tr {
+                    th { "Phase" } th.n { "Time" } th.n { "Share" } th.wide { } th { "What happens in it" }
+                } }
+                tbody { @for phase in &study.phases { tr {
+                    td { (phase.phase) }
+                    td.n { (time(phase.seconds)) }
+                    td.n { (percent(phase.share)) }
+                    td { div.bar style=(format!("width:{:.1}%", width(phase.share))) { } }
+                    td.words { (phase.what) }
+                } } }
+            } }
+        }
+    }
+}
+
+/// What each effect costs.
+pub(super) fn effects(study: &Study) -> Markup {
+    if study.effects.is_empty() {
+        return html! {};
+    }
+    html! {
+        section #effects {
+            h2 { "What each effect costs" }
+            p { "The image rendered with and without each effect, in turns: the median of their "
+                "ratios, and half of the range of the middle half of them." }
+            div.scroll { table {
+                thead { tr {
+                    th { "Effect" } th { "Called for" } th.n { "With" } th.n { "Without" }
+                    th.n { "Cost" } th { } th { "1990 paper" } th { "Why" }
+                } }
+                tbody { @for effect in &study.effects { tr.off[!effect.called] {
+                    td { (effect.effect) }
+                    td { @if effect.called { "yes" } @else { "no" } }
+                    td.n { (time(effect.on.median)) }
+                    td.n { (time(effect.off.median)) }
+                    td.n { (percent(effect.cost)) " ± " (percent(effect.spread)) }
+                    td.words { (verdict(effect)) }
+                    td { (effect.paper.unwrap_or(NOTHING)) }
+                    td.words { (effect.why) }
+                } } }
+            } }
+        }
+    }
+}
+
+/// What a cost and its spread say.
+fn verdict(effect: &EffectCost) -> &'static str {
+    let hidden = effect.cost.abs() <= effect.spread;
+    match (effect.called, hidden) {
+        (false, true) => "not called for: 0 % within the spread",
+        (false, false) => "not called for, and yet beyond the spread",
+        (true, true) => "0 % within the spread",
+        (true, false) => "",
+    }
+}
+
+/// The findings of the 1990 paper beside ours.
+pub(super) fn paper(study: &Study) -> Markup {
+    if study.paper.is_empty() {
+        return html! {};
+    }
+    html! {
+        section #paper {
+            h2 { "Beside the paper of 1990" }
+            p { "Its section 6, on machines of its day; ours is a part of the time of everything "
+                "else." }
+            div.scroll { table {
+                thead { tr { th { "What" } th { "1990" } th.n { "Here" } th { "How it was measured" } } }
+                tbody { @for row in &study.paper { tr {
+                    td.words { (row.what) }
+                    td { (row.paper) }
+                    td.n { (row.ours.map_or_else(|| NOTHING.to_owned(), percent)) }
+                    td.words { (row.how) }
+                } } }
+            } }
+        }
+    }
+}

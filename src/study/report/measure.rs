@@ -1,0 +1,76 @@
+//! Which error a chart shows, and where a point stands on it.
+
+use crate::study::findings::{Errors, Percentiles, Point, Sweep};
+
+/// A way to tell how wrong a picture is.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Measure {
+    /// What stands at the axis.
+    pub(super) label: &'static str,
+    /// In which unit; empty if in none.
+    pub(super) unit: &'static str,
+    of: fn(&Errors) -> Option<f64>,
+}
+
+/// What people see comes first.
+const MEASURES: [Measure; 3] = [
+    Measure {
+        label: "ΔE2000, 99th percentile",
+        unit: "",
+        of: |errors| errors.delta_e.map(p99),
+    },
+    Measure {
+        label: "error of radiance, relative",
+        unit: "",
+        of: |errors| Some(errors.radiance),
+    },
+    Measure {
+        label: "displacement, 99th percentile",
+        unit: "px",
+        of: |errors| errors.displacement.map(p99),
+    },
+];
+
+fn p99(percentiles: Percentiles) -> f64 {
+    percentiles.p99
+}
+
+/// An error of a point, as far as a logarithmic axis can show it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Error {
+    /// Finite and above 0.
+    Measured(f64),
+    /// None: the reference itself, or equal to it.
+    None,
+    /// Infinite, or no number.
+    Beyond,
+}
+
+impl Measure {
+    /// The first measure by which the points of a sweep differ from its reference; where they do
+    /// by none, the first that they have.
+    pub(super) fn of(sweep: &Sweep) -> Self {
+        let errors = || sweep.points.iter().filter_map(|p| p.errors.as_ref());
+        let has = |m: &&Self| errors().any(|e| (m.of)(e).is_some());
+        let tells = |m: &&Self| errors().any(|e| (m.of)(e).is_some_and(|v| v != 0.0));
+        let mut measures = MEASURES.iter();
+        let [first, ..] = &MEASURES;
+        *measures
+            .clone()
+            .find(tells)
+            .or_else(|| measures.find(has))
+            .unwrap_or(first)
+    }
+
+    /// The error of a point by this measure, if it has one.
+    pub(super) fn error(&self, point: &Point) -> Option<Error> {
+        let Some(errors) = &point.errors else {
+            return Some(Error::None);
+        };
+        Some(match (self.of)(errors)? {
+            0.0 => Error::None,
+            value if value.is_finite() && value > 0.0 => Error::Measured(value),
+            _ => Error::Beyond,
+        })
+    }
+}
