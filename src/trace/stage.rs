@@ -49,15 +49,6 @@ pub struct Stage {
 impl Stage {
     /// Builds the trees. Meshes of an earlier stage are taken over where they are the same, so a
     /// body that moves within its rest frame from image to image costs only the instance tree.
-    /// shim
-    pub fn with_precision(
-        geometry: &Geometry,
-        earlier: Option<&Stage>,
-        _: crate::shot::Precision,
-    ) -> Self {
-        Self::build(geometry, earlier)
-    }
-    /// shim
     pub fn build(geometry: &Geometry, earlier: Option<&Stage>) -> Self {
         let meshes = mesh_trees(geometry, earlier);
         let worldlines = geometry
