@@ -3,6 +3,8 @@
 //!
 //! In: a shot without mistakes. Out: a [`Study`].
 
+pub mod displacement;
 pub mod findings;
+pub mod spheres;
 
 pub use findings::Study;
