@@ -1,11 +1,12 @@
 //! Primary and shadow rays through the narrow interface of the stage: a shell of one mesh, and
-//! rows of a thousand instances.
+//! rows of a thousand instances; primary rays in f32 too.
 
 mod shell;
 
 use divan::{Bencher, counter::ItemsCount};
 use glam::{DAffine3, DVec3};
 use restframe::scene::{Geometry, Scene};
+use restframe::shot::Precision;
 use restframe::trace::{RestRay, Stage};
 use shell::shell;
 use std::sync::Arc;
@@ -105,6 +106,25 @@ fn primary_rows(bencher: Bencher<'_, '_>) {
     let (_, scene, _) = shell(0.0, "shell", "", "");
     let (geometry, worldline) = rows(&scene);
     nearest(bencher, &Stage::build(&geometry, None), worldline);
+}
+
+#[divan::bench]
+fn primary_shell_f32(bencher: Bencher<'_, '_>) {
+    let (_, scene, _) = shell(0.0, "shell", "", "");
+    let stage = Stage::with_precision(&scene.geometry, None, Precision::F32);
+    nearest(
+        bencher,
+        &stage,
+        scene.geometry.instances[0].worldline as usize,
+    );
+}
+
+#[divan::bench]
+fn primary_rows_f32(bencher: Bencher<'_, '_>) {
+    let (_, scene, _) = shell(0.0, "shell", "", "");
+    let (geometry, worldline) = rows(&scene);
+    let stage = Stage::with_precision(&geometry, None, Precision::F32);
+    nearest(bencher, &stage, worldline);
 }
 
 #[divan::bench]

@@ -48,7 +48,8 @@
 //! ball, widened by 2·10⁻⁶ of it (they decide what is tested, never what is hit); baked curves and
 //! the sums over them (6·10⁻⁸ a value, shapes scaled to a peak of 1, so that only what is 10⁻³⁰ of
 //! the peak is lost); colours of sky images; the film and its files (6·10⁻⁸; what is beyond is
-//! clamped and counted).
+//! clamped and counted). On demand ([`shot::Precision::F32`]) also rays in rest frames, triangles and
+//! hits ([`trace::Stage::with_precision`] has their errors).
 //!
 //! **What limits the rest**: coordinates. A worldline's origin that is rounded in the lab is off by
 //! γε of its distance in its own frame, and a rounded direction by γε within 1/γ of the motion; so

@@ -45,7 +45,7 @@ pub(super) fn run(arguments: &ProbeArguments) -> Result<(), Failed> {
     }
     let (exposing, _) = prepared.exposure().map_err(|m| mistaken(&m))?;
     let scene = Scene::resolve(shot, &prepared.library, frame, None).map_err(|m| mistaken(&m))?;
-    let stage = Stage::build(&scene.geometry, None);
+    let stage = Stage::with_precision(&scene.geometry, None, shot.accuracy.tracing);
     let splice = shot
         .splice
         .iter()

@@ -201,7 +201,11 @@ fn render_frame(
     .map_err(mistakes)?;
     let stage = match earlier {
         Some((old, stage)) if std::sync::Arc::ptr_eq(&old.geometry, &scene.geometry) => stage,
-        other => Stage::build(&scene.geometry, other.as_ref().map(|(_, stage)| stage)),
+        other => Stage::with_precision(
+            &scene.geometry,
+            other.as_ref().map(|(_, stage)| stage),
+            shot.accuracy.tracing,
+        ),
     };
     let advance = |rays| progress.advance(rays);
     let film = render(shot, frame, &scene, &stage, &options, &advance)

@@ -23,7 +23,7 @@ pub struct Metered {
 /// Mistakes of frame 1.
 pub fn metered_exposure(shot: &Shot, library: &Library) -> Result<Metered, Mistakes> {
     let scene = Scene::resolve(shot, library, 1, None)?;
-    let stage = Stage::build(&scene.geometry, None);
+    let stage = Stage::with_precision(&scene.geometry, None, shot.accuracy.tracing);
     let [width, height] = shot.image.size.map(f64::from);
     let rows = (METER_WIDTH * height / width)
         .round()

@@ -39,6 +39,14 @@ impl Camera {
         let towards = self.projection.towards(point)?;
         Some((self.axes * towards).normalize())
     }
+
+    /// The image point in which something in a direction of the camera's rest frame (any length) is
+    /// seen, the inverse of [`Camera::looks_along`]; also outside of the image. None where there is
+    /// none. Of the points on both sides of a panorama's seam it is the one nearer to `near`.
+    pub fn image_point(&self, direction: DVec3, near: [f64; 2]) -> Option<[f64; 2]> {
+        self.projection
+            .point_of(self.axes.transpose() * direction, near)
+    }
 }
 
 impl Camera {
@@ -187,6 +195,21 @@ mod tests {
                 upper.z > 0.1 && upper.y.abs() < 1e-15,
                 "{projection} {upper}"
             );
+        }
+    }
+    #[test]
+    fn a_turned_camera_shows_what_it_sees_where_it_saw_it() {
+        for projection in ["perspective", "equirectangular", "fisheye"] {
+            let turned = "look_at = [1, 2, 9]\npan = 60\ntilt = 30\nroll = 20";
+            let (camera, _) = camera(&format!(
+                "[camera]\nprojection = \"{projection}\"\n{turned}"
+            ));
+            for point in [[0.5, 0.5], [0.3, 0.6], [0.71, 0.27], [0.52, 0.91]] {
+                let direction = camera.looks_along(point).unwrap();
+                let found = camera.image_point(direction * 1e-3, point).unwrap();
+                let off = (found[0] - point[0]).hypot(found[1] - point[1]);
+                assert!(off < 1e-14, "{projection} {point:?} {found:?}");
+            }
         }
     }
 }

@@ -66,6 +66,30 @@ impl Projection {
             Self::Fisheye { edge, half } => off_axis(right * edge[0], up * edge[1], *half),
         }
     }
+
+    /// The image point in which something in the direction of a vector is seen: the inverse of
+    /// [`Projection::towards`], also where that lies outside of the image. None where there is none:
+    /// behind a perspective. Across the seam of a panorama the point nearer to `near` is meant.
+    pub(super) fn point_of(&self, vector: DVec3, near: [f64; 2]) -> Option<[f64; 2]> {
+        let DVec3 { x, y, z } = vector;
+        let [right, up] = match self {
+            Self::Perspective { tan_half } => {
+                (z < 0.0).then(|| [x / -z / tan_half[0], y / -z / tan_half[1]])?
+            }
+            Self::Equirectangular { half } => {
+                let (yaw, pitch) = (x.atan2(-z), y.atan2(x.hypot(z)));
+                let turns = (((2.0 * near[0] - 1.0) * half[0] - yaw) / TAU).round();
+                [(yaw + turns * TAU) / half[0], pitch / half[1]]
+            }
+            Self::Fisheye { edge, .. } => {
+                let off = x.hypot(y);
+                let angle = off.atan2(-z);
+                let per_off = if off > 0.0 { angle / off } else { 1.0 };
+                [x * per_off / edge[0], y * per_off / edge[1]]
+            }
+        };
+        Some([(1.0 + right) / 2.0, (1.0 - up) / 2.0])
+    }
 }
 
 /// Beyond a pole the cosine is negative: the row goes on upon the other side. Kept out of the loop
@@ -235,6 +259,58 @@ mod tests {
         let dome = fisheye([Some(1e-300), None], WIDE);
         for x in [0.5, 0.5 + 1e-16, 0.500001, 1.0] {
             near(seen(dome, [x, 0.5]), DVec3::NEG_Z);
+        }
+    }
+    #[test]
+    fn every_projection_shows_what_it_sees_where_it_saw_it() {
+        let round = |projection: Projection, point: [f64; 2]| {
+            let Some(seen) = projection.towards(point) else {
+                return;
+            };
+            // Of any length.
+            let found = projection.point_of(seen * 7.0, point).unwrap();
+            let off = (found[0] - point[0]).hypot(found[1] - point[1]);
+            // At the rim of a full turn and at the poles the inverse is that ill-conditioned.
+            assert!(off < 1e-12, "{projection:?} {point:?} {found:?}");
+        };
+        let degrees = |angle: f64| Some(angle.to_radians());
+        for size in [WIDE, [10.0, 700.0]] {
+            for projection in [
+                perspective([None, None], size),
+                perspective([degrees(170.0), None], size),
+                perspective([None, degrees(1e-3)], size),
+                equirectangular([None, None], size),
+                equirectangular([None, degrees(40.0)], size),
+                fisheye([None, None], size),
+                fisheye([degrees(360.0), None], size),
+                fisheye([None, degrees(30.0)], size),
+            ] {
+                for i in 0..=40 {
+                    for j in 0..=40 {
+                        let at = |i: i32| (f64::from(i) + 0.5) / 41.0;
+                        round(projection, [at(i), at(j)]);
+                    }
+                }
+                round(projection, [0.5, 0.5]);
+            }
+        }
+    }
+
+    #[test]
+    fn across_the_seam_of_a_panorama_the_nearer_point_is_meant() {
+        let sphere = equirectangular([None, None], WIDE);
+        let behind = sphere.towards([0.999, 0.4]).unwrap();
+        for (near, expected) in [(0.9, 0.999), (0.001, -0.001)] {
+            let [x, y] = sphere.point_of(behind, [near, 0.4]).unwrap();
+            assert!((x - expected).abs() < 1e-14 && (y - 0.4).abs() < 1e-14);
+        }
+    }
+
+    #[test]
+    fn nothing_behind_a_perspective_has_a_point() {
+        let view = perspective([None, None], WIDE);
+        for vector in [DVec3::Z, DVec3::X, DVec3::new(1.0, 2.0, 0.1), DVec3::NAN] {
+            assert_eq!(view.point_of(vector, [0.5; 2]), None, "{vector}");
         }
     }
 }

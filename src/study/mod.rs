@@ -6,7 +6,7 @@
 //! and their trees are built before anything is timed, as for all frames of a sequence but the
 //! first.
 
-mod displacement;
+pub mod displacement;
 mod effects;
 mod errors;
 pub mod findings;
@@ -16,7 +16,7 @@ mod paper;
 mod ranking;
 pub mod report;
 mod rounds;
-mod spheres;
+pub mod spheres;
 mod subject;
 mod sweep;
 

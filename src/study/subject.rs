@@ -96,12 +96,11 @@ pub(super) struct Run {
 }
 
 impl Variant {
-    /// What the program states an error to be at most ([`Shader::bound`](crate::shade::Shader::bound)).
-    pub(super) fn bound(&self, subject: &Subject) -> Result<Option<f64>, StudyError> {
+    /// The image, ready for rays.
+    pub(super) fn view(&self, subject: &Subject) -> Result<View<'_>, StudyError> {
         let (scene, stage) = (&self.bodies.scene, &self.bodies.stage);
-        let view = View::new(&self.shot, subject.frame, &self.shot.effects, scene, stage)
-            .map_err(|error| motion_mistake(&self.shot, &error))?;
-        Ok(view.shader().bound())
+        let view = View::new(&self.shot, subject.frame, &self.shot.effects, scene, stage);
+        Ok(view.map_err(|error| motion_mistake(&self.shot, &error))?)
     }
 
     /// Renders it once.

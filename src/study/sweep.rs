@@ -1,6 +1,5 @@
 //! One knob measured: times, memory and errors of its settings.
 
-use super::displacement::displacement;
 use super::errors::{color_differences, errors};
 use super::findings::{Errors, Point, Sweep};
 use super::knobs::Knob;
@@ -92,13 +91,14 @@ fn compared(
     let [variant, exact] = variants;
     let [film, reference] = measured.map(|measured| &measured.first.film);
     let mut errors = errors(&variant.shot, film, reference, subject.stops)?;
-    if knob.geometry {
-        let (displaced, mistaken) = displacement(exact, variant, subject)?;
-        errors.displacement = Some(displaced);
-        errors.mistaken = Some(mistaken);
+    if let Some(displacement) = knob.displacement {
+        let size = [variant.options.width, variant.options.height];
+        let moved = displacement(&exact.view(subject)?, &variant.view(subject)?, size);
+        errors.displacement = Some(moved.pixels);
+        errors.mistaken = Some(moved.mistaken);
     }
     if knob.phase == "shade" {
-        errors.bound = variant.bound(subject)?;
+        errors.bound = variant.view(subject)?.shader().bound();
     }
     Ok(errors)
 }

@@ -1,5 +1,6 @@
 //! Bounding balls: where a ray comes near one, before f32 takes over.
 
+use super::real::Real;
 use glam::DVec3;
 
 /// A ball around a tree's content. Its radius is a power of two, so scaling by it is exact.
@@ -24,8 +25,10 @@ impl Ball {
     }
 }
 
-/// How many roundings of its length a way is off, at most, where it ends.
-const ROUNDINGS: f64 = 4.0 * f64::EPSILON;
+/// How many times its length's epsilon a way is off, at most, where it ends.
+const ENDS_OFF: f64 = 4.0;
+/// The same as a part of the length, in f64.
+const ROUNDINGS: f64 = ENDS_OFF * f64::EPSILON;
 
 /// Where the rounding of a way is this many radii, f32 would overflow, and nothing is known any more.
 const LOST: f64 = 1e30;
@@ -33,16 +36,22 @@ const LOST: f64 = 1e30;
 /// How far along a ray (from the centre of a ball, direction of squared length `d2`) it is on the
 /// near side of the ball; 0 inside or past that; None where the ray misses the ball.
 #[inline(always)]
-pub(super) fn near_side(from_center: DVec3, direction: DVec3, d2: f64, radius: f64) -> Option<f64> {
-    let closest = -from_center.dot(direction) / d2;
+pub(super) fn near_side<R: Real>(
+    from_center: R::Vector,
+    direction: R::Vector,
+    d2: R,
+    radius: R,
+) -> Option<R> {
+    let zero = R::of(0.0);
+    let closest = -R::dot(from_center, direction) / d2;
     // From afar, the rounding of `closest` counts beside the radius.
-    let span = radius * 1.0001 + ROUNDINGS * closest.abs() * d2.sqrt();
+    let roundings = R::of(ENDS_OFF) * R::EPSILON;
+    let span = radius * R::of(1.0001) + roundings * closest.abs() * d2.sqrt();
     // Behind and outside, or passing by: the closest point of the ray is outside the ball.
-    let passing = from_center + direction * closest.max(0.0);
-    if passing.length_squared() > span * span || span > LOST * radius {
-        return None;
-    }
-    Some((closest - span / d2.sqrt()).max(0.0))
+    let passing = from_center + direction * closest.max(zero);
+    // What is no number, since it left the range, misses too.
+    let meets = R::dot(passing, passing) <= span * span && span <= R::of(LOST) * radius;
+    meets.then(|| (closest - span / d2.sqrt()).max(zero))
 }
 
 /// Whether a ray of unit direction comes from so near a ball that [`near_side`] takes it there: the
@@ -142,6 +151,6 @@ mod tests {
     #[test]
     fn a_speck_too_small_for_its_place_to_be_known_is_missed() {
         let far = DVec3::new(0.0, 0.0, 1e60);
-        assert_eq!(near_side(far, DVec3::NEG_Z, 1.0, 1.0), None);
+        assert_eq!(near_side(far, DVec3::NEG_Z, 1.0_f64, 1.0), None);
     }
 }

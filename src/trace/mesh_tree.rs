@@ -2,20 +2,21 @@
 
 use super::ball::{Ball, near_side};
 use super::bvh::{Bvh, TreeRay};
-use super::stage::{BodyHit, Member, RestRay};
+use super::real::Real;
+use super::stage::{Approach, Hit, Member};
 use super::triangle::{Crossing, ShearedRay};
 use crate::scene::Mesh;
 use glam::{DAffine3, DMat3, DVec3};
 use std::sync::Arc;
 
 /// A mesh's triangles in its unit ball, and the tree over them.
-pub(super) struct MeshTree {
+pub(super) struct MeshTree<R> {
     pub(super) mesh: Arc<Mesh>,
     pub(super) ball: Ball,
     bounds: (DVec3, DVec3),
     tree: Bvh,
     /// In the tree's order.
-    triangles: Vec<[[f64; 3]; 3]>,
+    triangles: Vec<[[R; 3]; 3]>,
     /// The mesh's own number of each triangle, in the tree's order.
     numbers: Vec<u32>,
 }
@@ -23,12 +24,13 @@ pub(super) struct MeshTree {
 /// A ray that starts nearer than this to a triangle's plane starts on it and does not meet it, also
 /// where it grazes it: 45 roundings of the mesh's radius and of the place where it stands, in units
 /// of the radius.
-pub(super) fn starting_point(unit_from_rest: DMat3, center: DVec3) -> f64 {
+pub(super) fn starting_point<R: Real>(unit_from_rest: DMat3, center: DVec3) -> R {
     let place = (0..3).map(|i| unit_from_rest.row(i).abs().dot(center.abs()));
-    1e-14 * (1.0 + place.fold(0.0, f64::max))
+    let roundings = 1e-14 * (R::EPSILON.to_f64() / f64::EPSILON);
+    R::of(roundings * (1.0 + place.fold(0.0, f64::max)))
 }
 
-impl MeshTree {
+impl<R: Real> MeshTree<R> {
     pub(super) fn build(mesh: &Arc<Mesh>) -> Self {
         let used = mesh
             .triangles
@@ -48,7 +50,7 @@ impl MeshTree {
         let (tree, numbers) = Bvh::build(boxes);
         let triangles = numbers
             .iter()
-            .map(|&i| corners[i as usize].map(|corner| corner.to_array()))
+            .map(|&i| corners[i as usize].map(|corner| R::to_array(R::vector(corner))))
             .collect();
         let bounds = used.fold(
             (DVec3::INFINITY, DVec3::NEG_INFINITY),
@@ -76,11 +78,11 @@ impl MeshTree {
     #[inline(always)]
     pub(super) fn nearest(
         &self,
-        member: &Member,
-        ray: &RestRay,
-        reach: f64,
-        rival: Option<BodyHit>,
-    ) -> Option<BodyHit> {
+        member: &Member<R>,
+        ray: &Approach<R>,
+        reach: R,
+        rival: Option<Hit<R>>,
+    ) -> Option<Hit<R>> {
         let local = LocalRay::enter(member, ray, reach)?;
         let mut search = Search::new(self, member, &local, reach, rival);
         self.tree
@@ -91,11 +93,11 @@ impl MeshTree {
     /// [`MeshTree::nearest`] without the tree and the ball.
     pub(super) fn nearest_of_all(
         &self,
-        member: &Member,
-        ray: &RestRay,
-        reach: f64,
-        rival: Option<BodyHit>,
-    ) -> Option<BodyHit> {
+        member: &Member<R>,
+        ray: &Approach<R>,
+        reach: R,
+        rival: Option<Hit<R>>,
+    ) -> Option<Hit<R>> {
         let local = LocalRay::passing(member, ray, reach);
         let mut search = Search::new(self, member, &local, reach, rival);
         for place in 0..self.triangles.len() {
@@ -105,7 +107,7 @@ impl MeshTree {
     }
 
     #[inline(always)]
-    pub(super) fn blocks(&self, member: &Member, ray: &RestRay, reach: f64) -> bool {
+    pub(super) fn blocks(&self, member: &Member<R>, ray: &Approach<R>, reach: R) -> bool {
         LocalRay::enter(member, ray, reach).is_some_and(|local| {
             self.tree.any(&local.tree_ray, |place| {
                 local
@@ -117,24 +119,24 @@ impl MeshTree {
 }
 
 /// The nearest hit among the triangles offered so far.
-struct Search<'a> {
-    mesh: &'a MeshTree,
-    member: &'a Member,
-    local: &'a LocalRay,
-    reach: f64,
-    best: Option<BodyHit>,
+struct Search<'a, R: Real> {
+    mesh: &'a MeshTree<R>,
+    member: &'a Member<R>,
+    local: &'a LocalRay<R>,
+    reach: R,
+    best: Option<Hit<R>>,
     /// Whether that is one of these triangles.
     own: bool,
 }
 
-impl<'a> Search<'a> {
+impl<'a, R: Real> Search<'a, R> {
     #[inline(always)]
     fn new(
-        mesh: &'a MeshTree,
-        member: &'a Member,
-        local: &'a LocalRay,
-        reach: f64,
-        rival: Option<BodyHit>,
+        mesh: &'a MeshTree<R>,
+        member: &'a Member<R>,
+        local: &'a LocalRay<R>,
+        reach: R,
+        rival: Option<Hit<R>>,
     ) -> Self {
         Self {
             mesh,
@@ -149,14 +151,15 @@ impl<'a> Search<'a> {
     /// Answers with the ray parameter in units of the ball where this triangle is now the nearest,
     /// else with infinity.
     #[inline(always)]
-    fn offer(&mut self, place: usize) -> f64 {
+    fn offer(&mut self, place: usize) -> R {
+        let none = R::of(f64::INFINITY);
         let Some(crossing) = self
             .local
             .crossing(self.member, &self.mesh.triangles[place])
         else {
-            return f64::INFINITY;
+            return none;
         };
-        let hit = BodyHit {
+        let hit = Hit {
             t: self.local.start + crossing.t,
             instance: self.member.instance,
             triangle: self.mesh.numbers[place],
@@ -164,49 +167,49 @@ impl<'a> Search<'a> {
             front: crossing.front,
         };
         if hit.t > self.reach || self.best.is_some_and(|best| !hit.precedes(&best)) {
-            return f64::INFINITY;
+            return none;
         }
         (self.best, self.own) = (Some(hit), true);
         crossing.t * self.local.length
     }
 
     #[inline(always)]
-    fn found(self) -> Option<BodyHit> {
+    fn found(self) -> Option<Hit<R>> {
         self.best.filter(|_| self.own)
     }
 }
 
 /// A ray in a mesh's unit ball, its parameter still in rest-frame metres.
-struct LocalRay {
+struct LocalRay<R: Real> {
     /// How far along the rest-frame ray it begins.
-    start: f64,
+    start: R,
     /// Length of a rest-frame metre along the ray, in units of the ball.
-    length: f64,
-    tree_ray: TreeRay,
-    sheared: ShearedRay,
+    length: R,
+    tree_ray: TreeRay<R>,
+    sheared: ShearedRay<R>,
 }
 
-impl LocalRay {
+impl<R: Real> LocalRay<R> {
     /// The ray from where it comes near the ball, if it does so nearer than `reach`.
     #[inline(always)]
-    fn enter(member: &Member, ray: &RestRay, reach: f64) -> Option<Self> {
+    fn enter(member: &Member<R>, ray: &Approach<R>, reach: R) -> Option<Self> {
         let (from_center, direction) = in_ball(member, ray);
-        let d2 = direction.length_squared();
-        let start = near_side(from_center, direction, d2, 1.0)?;
+        let d2 = R::dot(direction, direction);
+        let start = near_side(from_center, direction, d2, R::of(1.0))?;
         (start < reach).then(|| Self::new((from_center, direction, d2), start, reach))
     }
 
     /// The ray from where it comes near the ball, or passes it.
-    fn passing(member: &Member, ray: &RestRay, reach: f64) -> Self {
+    fn passing(member: &Member<R>, ray: &Approach<R>, reach: R) -> Self {
         let (from_center, direction) = in_ball(member, ray);
-        let d2 = direction.length_squared();
-        let start = near_side(from_center, direction, d2, 1.0)
-            .unwrap_or_else(|| (-from_center.dot(direction) / d2).max(0.0));
+        let d2 = R::dot(direction, direction);
+        let start = near_side(from_center, direction, d2, R::of(1.0))
+            .unwrap_or_else(|| (-R::dot(from_center, direction) / d2).max(R::of(0.0)));
         Self::new((from_center, direction, d2), start, reach)
     }
 
     #[inline(always)]
-    fn new((from_center, direction, d2): (DVec3, DVec3, f64), start: f64, reach: f64) -> Self {
+    fn new((from_center, direction, d2): (R::Vector, R::Vector, R), start: R, reach: R) -> Self {
         let length = d2.sqrt();
         let origin = from_center + direction * start;
         Self {
@@ -217,30 +220,32 @@ impl LocalRay {
                 direction: direction / length,
                 reach: (reach - start) * length,
             },
-            sheared: ShearedRay::new(origin.to_array(), direction.to_array()),
+            sheared: ShearedRay::new(R::to_array(origin), R::to_array(direction)),
         }
     }
 
     #[inline(always)]
-    fn crossing(&self, member: &Member, triangle: &[[f64; 3]; 3]) -> Option<Crossing> {
+    fn crossing(&self, member: &Member<R>, triangle: &[[R; 3]; 3]) -> Option<Crossing<R>> {
+        let zero = R::of(0.0);
         let crossing = self.sheared.crossing(triangle)?;
         let seen = crossing.front || !member.single_sided;
-        let met = self.start > 0.0 || (crossing.t > 0.0 && self.starts_off(member, triangle));
-        (seen && met).then_some(crossing)
+        let met = self.start > zero || (crossing.t > zero && self.starts_off(member, triangle));
+        // Numbers that left the range are no place.
+        (seen && met && crossing.t.is_finite()).then_some(crossing)
     }
 
     /// Whether the ray, which starts among the triangles, does not start on this one's plane.
-    fn starts_off(&self, member: &Member, triangle: &[[f64; 3]; 3]) -> bool {
-        let [a, b, c] = triangle.map(DVec3::from);
-        let normal = (b - a).cross(c - a);
-        let off = normal.dot(a - self.tree_ray.origin);
-        off.abs() > member.starting_point * normal.length()
+    fn starts_off(&self, member: &Member<R>, triangle: &[[R; 3]; 3]) -> bool {
+        let [a, b, c] = triangle.map(R::from_array);
+        let normal = R::cross(b - a, c - a);
+        let off = R::dot(normal, a - self.tree_ray.origin);
+        off.abs() > member.starting_point * R::dot(normal, normal).sqrt()
     }
 }
 
 /// Origin, from the ball's center, and direction of a ray in units of a member's ball.
 #[inline(always)]
-fn in_ball(member: &Member, ray: &RestRay) -> (DVec3, DVec3) {
+fn in_ball<R: Real>(member: &Member<R>, ray: &Approach<R>) -> (R::Vector, R::Vector) {
     (
         member.unit_from_rest * (ray.origin - member.center),
         member.unit_from_rest * ray.direction,

@@ -18,6 +18,7 @@ mod grow;
 mod mesh_tree;
 mod optics;
 mod ray;
+mod real;
 mod sampler;
 mod spacetime;
 mod stage;
@@ -168,8 +169,11 @@ impl Tracer<'_> {
     #[inline(always)]
     fn place(&self, nearest: &Nearest, material: &Material) -> Option<Place> {
         let lit = material.takes_lamps() && !self.scene.lights.is_empty();
-        (lit || material.passes_light_on())
-            .then(|| Place::new(self.scene, &nearest.hit, nearest.direction, nearest.time))
+        (lit || material.passes_light_on()).then(|| {
+            let mut place = Place::new(self.scene, &nearest.hit, nearest.direction, nearest.time);
+            place.point.clearance = self.stage.clearance(place.point.clearance);
+            place
+        })
     }
 
     /// Adds the node of a hit, and the lamps on it.

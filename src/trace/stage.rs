@@ -5,12 +5,17 @@
 //! This is the one border between f64 and f32: before a ray enters a tree its origin is moved, in
 //! f64, to the near side of the tree's bounding sphere, and only box tests are f32. Triangles are
 //! tested in f64, so the crossing is the event.
+//!
+//! A stage in f32 ([`Stage::with_precision`]) has its border here too, only all of what lies beyond
+//! is f32: the ray once it is boosted, where bodies stand, triangles, and what is found.
 
 use super::ball::{Ball, brought_near, is_near, near_side};
 use super::bvh::{Bvh, TreeRay};
 use super::mesh_tree::{MeshTree, starting_point};
+use super::real::Real;
 use crate::scene::{Geometry, Instance, Mesh};
-use glam::{DMat3, DVec3};
+use crate::shot::Precision;
+use glam::DVec3;
 use indexmap::IndexSet;
 use std::sync::Arc;
 
@@ -40,30 +45,50 @@ pub struct BodyHit {
 
 /// All bodies, ready for rays.
 pub struct Stage {
-    /// By index of the worldline.
-    crowds: Vec<Option<Crowd>>,
+    crowds: Crowds,
     /// The worldlines that have bodies, in the order of the geometry.
     order: Vec<usize>,
 }
 
+/// The bodies by index of their worldline, in one of the precisions.
+enum Crowds {
+    F64(Vec<Option<Crowd<f64>>>),
+    F32(Vec<Option<Crowd<f32>>>),
+}
+
 impl Stage {
-    /// Builds the trees. Meshes of an earlier stage are taken over where they are the same, so a
-    /// body that moves within its rest frame from image to image costs only the instance tree.
+    /// [`Stage::with_precision`] in f64.
     pub fn build(geometry: &Geometry, earlier: Option<&Stage>) -> Self {
-        let meshes = mesh_trees(geometry, earlier);
-        let worldlines = geometry
-            .instances
-            .iter()
-            .map(|i| i.worldline as usize + 1)
-            .max();
-        let crowds = (0..worldlines.unwrap_or(0))
-            .map(|worldline| Crowd::build(geometry, worldline as u32, &meshes))
-            .collect();
+        Self::with_precision(geometry, earlier, Precision::F64)
+    }
+
+    /// Builds the trees. Meshes of an earlier stage of the same precision are taken over where they
+    /// are the same, so a body that moves within its rest frame from image to image costs only the
+    /// instance tree.
+    ///
+    /// In f32 triangles take 36 bytes each in place of 72. In a rest frame directions are off by
+    /// 6·10⁻⁸ rad (less along an axis), and places by 6·10⁻⁸ of the coordinates of camera and body
+    /// and of the distance between them. Weak where bodies stand far from the origin of their
+    /// worldline, and where they come on obliquely at a large Lorentz factor γ: the rest frame holds
+    /// the image in a cone of 1/γ, and what is off there is off by up to 2γ as much in the image.
+    /// Bodies of one worldline that together reach over more than 10¹⁸ m, or less than 10⁻¹⁸ m, are
+    /// not seen.
+    pub fn with_precision(
+        geometry: &Geometry,
+        earlier: Option<&Stage>,
+        precision: Precision,
+    ) -> Self {
         let order: IndexSet<usize> = geometry
             .instances
             .iter()
             .map(|i| i.worldline as usize)
             .collect();
+        let crowds = match (precision, earlier.map(|stage| &stage.crowds)) {
+            (Precision::F64, Some(Crowds::F64(known))) => Crowds::F64(crowds(geometry, known)),
+            (Precision::F64, _) => Crowds::F64(crowds(geometry, &[])),
+            (Precision::F32, Some(Crowds::F32(known))) => Crowds::F32(crowds(geometry, known)),
+            (Precision::F32, _) => Crowds::F32(crowds(geometry, &[])),
+        };
         Self {
             crowds,
             order: order.into_iter().collect(),
@@ -80,33 +105,62 @@ impl Stage {
     /// The first body of `worldline` that the ray meets nearer than `reach` (rest-frame metres).
     #[inline]
     pub fn nearest(&self, worldline: usize, ray: &RestRay, reach: f64) -> Option<BodyHit> {
-        self.crowds.get(worldline)?.as_ref()?.nearest(ray, reach)
+        match &self.crowds {
+            Crowds::F64(crowds) => crowds.get(worldline)?.as_ref()?.nearest(ray, reach),
+            Crowds::F32(crowds) => crowds.get(worldline)?.as_ref()?.nearest(ray, reach),
+        }
     }
 
     /// [`Stage::nearest`] by trying every triangle of every instance, with the same arithmetic but no
-    /// tree and no bound that a ray could miss: the same to the bit, only slowly. What the trees are
-    /// tested against.
+    /// tree and no bound that a ray could miss: the same to the bit in f64, only slowly. What the
+    /// trees are tested against.
     pub fn nearest_of_all(&self, worldline: usize, ray: &RestRay, reach: f64) -> Option<BodyHit> {
-        self.crowds
-            .get(worldline)?
-            .as_ref()?
-            .nearest_of_all(ray, reach)
+        match &self.crowds {
+            Crowds::F64(crowds) => crowds.get(worldline)?.as_ref()?.nearest_of_all(ray, reach),
+            Crowds::F32(crowds) => crowds.get(worldline)?.as_ref()?.nearest_of_all(ray, reach),
+        }
     }
 
     /// Whether any body of `worldline` stands on the ray nearer than `reach`.
     #[inline]
     pub fn blocks(&self, worldline: usize, ray: &RestRay, reach: f64) -> bool {
-        self.crowds
-            .get(worldline)
-            .and_then(Option::as_ref)
-            .is_some_and(|crowd| crowd.blocks(ray, reach))
+        match &self.crowds {
+            Crowds::F64(crowds) => crowd(crowds, worldline).is_some_and(|c| c.blocks(ray, reach)),
+            Crowds::F32(crowds) => crowd(crowds, worldline).is_some_and(|c| c.blocks(ray, reach)),
+        }
+    }
+
+    /// A distance that surely separates a point from its surface here, from that in f64
+    /// ([`crate::scene::SurfacePoint::clearance`]): in f32, where it would show if it were so
+    /// generous, 100 roundings in place of 1000.
+    pub(super) fn clearance(&self, in_f64: f64) -> f64 {
+        match &self.crowds {
+            Crowds::F64(_) => in_f64,
+            Crowds::F32(_) => in_f64 * (0.1 * f64::from(f32::EPSILON) / f64::EPSILON),
+        }
     }
 }
 
-fn mesh_trees(geometry: &Geometry, earlier: Option<&Stage>) -> Vec<Arc<MeshTree>> {
-    let known: Vec<&Arc<MeshTree>> = earlier
-        .into_iter()
-        .flat_map(|stage| stage.crowds.iter().flatten())
+fn crowd<R: Real>(crowds: &[Option<Crowd<R>>], worldline: usize) -> Option<&Crowd<R>> {
+    crowds.get(worldline)?.as_ref()
+}
+
+fn crowds<R: Real>(geometry: &Geometry, earlier: &[Option<Crowd<R>>]) -> Vec<Option<Crowd<R>>> {
+    let meshes = mesh_trees(geometry, earlier);
+    let worldlines = geometry
+        .instances
+        .iter()
+        .map(|i| i.worldline as usize + 1)
+        .max();
+    (0..worldlines.unwrap_or(0))
+        .map(|worldline| Crowd::build(geometry, worldline as u32, &meshes))
+        .collect()
+}
+
+fn mesh_trees<R: Real>(geometry: &Geometry, earlier: &[Option<Crowd<R>>]) -> Vec<Arc<MeshTree<R>>> {
+    let known: Vec<&Arc<MeshTree<R>>> = earlier
+        .iter()
+        .flatten()
         .flat_map(|crowd| crowd.meshes.iter())
         .collect();
     let tree = |mesh: &Arc<Mesh>| match known.iter().find(|tree| Arc::ptr_eq(&tree.mesh, mesh)) {
@@ -116,32 +170,51 @@ fn mesh_trees(geometry: &Geometry, earlier: Option<&Stage>) -> Vec<Arc<MeshTree>
     geometry.meshes.iter().map(tree).collect()
 }
 
+/// A [`RestRay`] as triangles are met by it.
+pub(super) struct Approach<R: Real> {
+    pub(super) origin: R::Vector,
+    pub(super) direction: R::Vector,
+}
+
+/// A [`BodyHit`] in the numbers it is found in.
+#[derive(Clone, Copy)]
+pub(super) struct Hit<R> {
+    pub(super) t: R,
+    pub(super) instance: u32,
+    pub(super) triangle: u32,
+    pub(super) weights: [R; 3],
+    pub(super) front: bool,
+}
+
 /// The bodies of one worldline.
-struct Crowd {
+struct Crowd<R: Real> {
     ball: Ball,
+    /// The ball's, as rays meet it.
+    center: R::Vector,
+    radius: R,
     tree: Bvh,
-    members: Vec<Member>,
+    members: Vec<Member<R>>,
     /// Every mesh of the geometry, for a later stage to take over.
-    meshes: Vec<Arc<MeshTree>>,
+    meshes: Vec<Arc<MeshTree<R>>>,
 }
 
 /// One instance, its mesh scaled into the unit ball.
-pub(super) struct Member {
+pub(super) struct Member<R: Real> {
     pub(super) mesh: u32,
     pub(super) instance: u32,
     /// Linear part of the map from the rest frame to the mesh's unit ball.
-    pub(super) unit_from_rest: DMat3,
+    pub(super) unit_from_rest: R::Matrix,
     /// Center of the mesh's ball in the rest frame.
-    pub(super) center: DVec3,
+    pub(super) center: R::Vector,
     /// How near, in units of the ball, a ray that starts on a surface may be to it.
-    pub(super) starting_point: f64,
+    pub(super) starting_point: R,
     /// Whether triangles are passed through from behind. Front and back are those of the mesh
     /// itself, also in a mirrored instance (glTF 2.0 §3.7.4).
     pub(super) single_sided: bool,
 }
 
-impl Crowd {
-    fn build(geometry: &Geometry, worldline: u32, meshes: &[Arc<MeshTree>]) -> Option<Self> {
+impl<R: Real> Crowd<R> {
+    fn build(geometry: &Geometry, worldline: u32, meshes: &[Arc<MeshTree<R>>]) -> Option<Self> {
         let standing: Vec<(u32, &Instance)> = geometry
             .instances
             .iter()
@@ -162,6 +235,9 @@ impl Crowd {
             let half = *max / 2.0 - *min / 2.0;
             (*min + half, half.length())
         }));
+        if !(1.0 / R::WIDEST..=R::WIDEST).contains(&ball.radius) {
+            return None;
+        }
         let unit = |p: DVec3| (p - ball.center) / ball.radius;
         let (tree, order) = Bvh::build(boxes.iter().map(|(min, max)| (unit(*min), unit(*max))));
         let members = order
@@ -173,6 +249,8 @@ impl Crowd {
             .collect();
         Some(Self {
             ball,
+            center: R::vector(ball.center),
+            radius: R::of(ball.radius),
             tree,
             members,
             meshes: meshes.to_vec(),
@@ -181,17 +259,14 @@ impl Crowd {
 
     fn nearest(&self, ray: &RestRay, reach: f64) -> Option<BodyHit> {
         let (way, ray) = self.nearby(ray)?;
-        let hit = self.nearest_from(&ray, reach - way)?;
-        Some(BodyHit {
-            t: way + hit.t,
-            ..hit
-        })
+        let hit = self.nearest_from(&ray, R::of(reach - way))?;
+        Some(hit.after(way))
     }
 
     #[inline(always)]
-    fn nearest_from(&self, ray: &RestRay, reach: f64) -> Option<BodyHit> {
+    fn nearest_from(&self, ray: &Approach<R>, reach: R) -> Option<Hit<R>> {
         let (start, unit_ray) = self.entering(ray, reach)?;
-        let mut best: Option<BodyHit> = None;
+        let mut best: Option<Hit<R>> = None;
         self.tree.nearest(&unit_ray, |place| {
             let member = &self.members[place];
             let mesh = &self.meshes[member.mesh as usize];
@@ -199,9 +274,9 @@ impl Crowd {
             match mesh.nearest(member, ray, limit, best) {
                 Some(hit) => {
                     best = Some(hit);
-                    (hit.t - start) / self.ball.radius
+                    (hit.t - start) / self.radius
                 }
-                None => f64::INFINITY,
+                None => R::of(f64::INFINITY),
             }
         });
         best
@@ -209,20 +284,17 @@ impl Crowd {
 
     fn nearest_of_all(&self, ray: &RestRay, reach: f64) -> Option<BodyHit> {
         let (way, ray) = self.nearby(ray)?;
+        let reach = R::of(reach - way);
         let hit = self.members.iter().fold(None, |best, member| {
             let mesh = &self.meshes[member.mesh as usize];
-            mesh.nearest_of_all(member, &ray, reach - way, best)
-                .or(best)
+            mesh.nearest_of_all(member, &ray, reach, best).or(best)
         })?;
-        Some(BodyHit {
-            t: way + hit.t,
-            ..hit
-        })
+        Some(hit.after(way))
     }
 
     fn blocks(&self, ray: &RestRay, reach: f64) -> bool {
         self.nearby(ray).is_some_and(|(way, ray)| {
-            let reach = reach - way;
+            let reach = R::of(reach - way);
             self.entering(&ray, reach).is_some_and(|(_, unit_ray)| {
                 self.tree.any(&unit_ray, |place| {
                     let member = &self.members[place];
@@ -235,52 +307,68 @@ impl Crowd {
     /// The ray itself, or, where its start is so far off that f64 would lose the bodies on the way,
     /// the ray from nearer by, and how much nearer.
     #[inline(always)]
-    fn nearby(&self, ray: &RestRay) -> Option<(f64, RestRay)> {
+    fn nearby(&self, ray: &RestRay) -> Option<(f64, Approach<R>)> {
         let Ball { center, radius } = self.ball;
         let from_center = ray.origin - center;
-        if is_near(from_center, ray.direction, radius) {
-            return Some((0.0, *ray));
-        }
-        let (way, from_center) = brought_near(from_center, ray.direction, radius)?;
-        let origin = center + from_center;
-        Some((way, RestRay { origin, ..*ray }))
+        let (way, origin) = if is_near(from_center, ray.direction, radius) {
+            (0.0, ray.origin)
+        } else {
+            let (way, from_center) = brought_near(from_center, ray.direction, radius)?;
+            (way, center + from_center)
+        };
+        let approach = Approach {
+            origin: R::vector(origin),
+            direction: R::vector(ray.direction),
+        };
+        Some((way, approach))
     }
 
     /// The ray in unit-ball coordinates from where it comes near the ball, and how far that is.
-    fn entering(&self, ray: &RestRay, reach: f64) -> Option<(f64, TreeRay)> {
-        let Ball { center, radius } = self.ball;
-        let from_center = ray.origin - center;
-        let start = near_side(from_center, ray.direction, 1.0, radius)?;
+    fn entering(&self, ray: &Approach<R>, reach: R) -> Option<(R, TreeRay<R>)> {
+        let from_center = ray.origin - self.center;
+        let start = near_side(from_center, ray.direction, R::of(1.0), self.radius)?;
         (start < reach).then(|| {
             let tree_ray = TreeRay {
-                origin: (from_center + ray.direction * start) / radius,
+                origin: (from_center + ray.direction * start) / self.radius,
                 direction: ray.direction,
-                reach: (reach - start) / radius,
+                reach: (reach - start) / self.radius,
             };
             (start, tree_ray)
         })
     }
 }
 
-impl Member {
-    fn new(index: u32, instance: &Instance, mesh: &MeshTree) -> Self {
+impl<R: Real> Member<R> {
+    fn new(index: u32, instance: &Instance, mesh: &MeshTree<R>) -> Self {
         let unit_from_rest = (instance.rest_from_mesh.matrix3 * mesh.ball.radius).inverse();
         let center = instance.rest_from_mesh.transform_point3(mesh.ball.center);
         Self {
             mesh: instance.mesh,
             instance: index,
-            unit_from_rest,
-            center,
+            unit_from_rest: R::matrix(unit_from_rest),
+            center: R::vector(center),
             starting_point: starting_point(unit_from_rest, center),
             single_sided: !instance.double_sided,
         }
     }
 }
 
-impl BodyHit {
+impl<R: Real> Hit<R> {
     /// Nearest first; at the same place the body and the triangle that stand first in the
     /// geometry, so that the picture does not depend on the order of traversal.
     pub(super) fn precedes(&self, other: &Self) -> bool {
         (self.t, self.instance, self.triangle) < (other.t, other.instance, other.triangle)
+    }
+
+    /// As met by a ray that was brought nearer by `way`.
+    #[inline(always)]
+    fn after(self, way: f64) -> BodyHit {
+        BodyHit {
+            t: way + self.t.to_f64(),
+            instance: self.instance,
+            triangle: self.triangle,
+            weights: self.weights.map(R::to_f64),
+            front: self.front,
+        }
     }
 }

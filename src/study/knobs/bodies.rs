@@ -4,6 +4,7 @@ use super::Knob;
 use crate::scene::Scene;
 use crate::shot::Precision;
 use crate::study::Start;
+use crate::study::displacement::{displacement, displacement_of_spheres};
 use crate::study::spheres;
 use crate::study::subject::{Bodies, Variant};
 use crate::trace::Stage;
@@ -21,7 +22,7 @@ pub(super) fn tracing(start: &Start<'_>) -> Knob {
         "precision of rays and triangles in rest frames",
     );
     knob.reference = "f64";
-    knob.geometry = true;
+    knob.displacement = Some(displacement);
     let variant = |precision: Precision, name: &str| {
         let mut shot = start.shot.clone();
         shot.accuracy.tracing = precision;
@@ -56,7 +57,7 @@ pub(super) fn tessellation(start: &Start<'_>) -> Knob {
         "triangles of which each sphere among the shot's meshes is made",
     );
     knob.reference = "spheres of 327680 triangles";
-    knob.geometry = true;
+    knob.displacement = Some(displacement_of_spheres);
     let bodies = |level: u32| {
         let scene = &start.bodies.scene;
         let geometry = Arc::new(spheres::tessellated(&scene.geometry, level)?);

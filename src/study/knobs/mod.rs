@@ -7,8 +7,10 @@ mod pixels;
 mod spectra;
 
 use super::Start;
+use super::displacement::Displacement;
 use super::subject::Variant;
 use crate::plan::Called;
+use crate::render::View;
 
 pub(super) use spectra::without_shift;
 
@@ -22,8 +24,9 @@ pub(super) struct Knob {
     pub(super) variants: Vec<Variant>,
     /// By family, or one for all.
     pub(super) references: Vec<Variant>,
-    /// Whether surfaces move.
-    pub(super) geometry: bool,
+    /// How far surfaces move, where they do: views of the reference and a setting, and the
+    /// image's size.
+    pub(super) displacement: Option<fn(&View<'_>, &View<'_>, [u32; 2]) -> Displacement>,
     /// Whether it is the files that differ.
     pub(super) files: bool,
 }
@@ -38,7 +41,7 @@ impl Knob {
             note: None,
             variants: Vec::new(),
             references: Vec::new(),
-            geometry: false,
+            displacement: None,
             files: false,
         }
     }
