@@ -15,6 +15,8 @@ fn main() {
 
 const WAVELENGTHS: [u32; 5] = [21, 42, 84, 168, 336];
 const SPLINE_WAVELENGTHS: [u32; 8] = [8, 11, 16, 31, 61, 81, 84, 121];
+/// Calls between two looks at the clock, of shadings that take no longer than such a look.
+const CALLS: u32 = 256;
 /// Distances of lines, nm.
 const SPACINGS: [f64; 4] = [10.0, 5.0, 2.5, 1.0];
 
@@ -81,12 +83,12 @@ fn shade(bencher: Bencher<'_, '_>, effects: &str, accuracy: &str, lamp_doppler: 
     bencher.bench_local(|| shader.xyz(black_box(&trees), root, &mut scratch));
 }
 
-#[divan::bench(args = WAVELENGTHS)]
+#[divan::bench(args = WAVELENGTHS, sample_size = CALLS)]
 fn grid_lamp_moves_along(bencher: Bencher<'_, '_>, wavelengths: u32) {
     curves(bencher, "grid", wavelengths, 1.0);
 }
 
-#[divan::bench(args = WAVELENGTHS)]
+#[divan::bench(args = WAVELENGTHS, sample_size = CALLS)]
 fn grid_two_shifts(bencher: Bencher<'_, '_>, wavelengths: u32) {
     curves(bencher, "grid", wavelengths, 0.9);
 }
@@ -111,7 +113,7 @@ fn lines_two_shifts(bencher: Bencher<'_, '_>, spacing_nm: f64) {
     lines(bencher, spacing_nm, 0.9);
 }
 
-#[divan::bench]
+#[divan::bench(sample_size = CALLS)]
 fn rgb_without_shift(bencher: Bencher<'_, '_>) {
     shade(bencher, "doppler = \"off\"", "spectra = \"rgb\"", 0.9);
 }
