@@ -6,6 +6,12 @@ use super::received::finite;
 use super::shader::ShadeScratch;
 use crate::trace::Lit;
 
+/// The shifts of a surface's reflectance and of a lamp's light to the camera, and their logarithms.
+struct Shifts {
+    factors: [f64; 2],
+    ln: [f64; 2],
+}
+
 impl CurveShader {
     /// Light of the surface's lamps. Those that share the surface's shift are summed by emitter,
     /// so that each table is read once.
@@ -18,6 +24,7 @@ impl CurveShader {
     ) -> [f64; 3] {
         let mut sum = [0.0; 3];
         let shift = self.received.shift(doppler);
+        let ln_shift = shift.ln();
         scratch.comoving.clear();
         scratch.comoving.resize(self.emitters.len(), [0.0; 2]);
         for lit in lamps {
@@ -30,17 +37,14 @@ impl CurveShader {
                 scratch.comoving[emitter][0] += shares[0];
                 scratch.comoving[emitter][1] += shares[1];
             } else {
-                let xyz = self.lamp_xyz(
-                    surface,
-                    emitter,
-                    shares,
-                    [shift, shift * lamp_shift],
-                    scratch,
-                );
+                let shifts = Shifts {
+                    factors: [shift, shift * lamp_shift],
+                    ln: [ln_shift, ln_shift + lamp_shift.ln()],
+                };
+                let xyz = self.lamp_xyz(surface, emitter, shares, &shifts, scratch);
                 add(&mut sum, xyz, 1.0);
             }
         }
-        let ln_shift = shift.ln();
         for (emitter, shares) in scratch.comoving.iter().enumerate() {
             for (term, share) in surface.reflecting().zip(shares) {
                 if let Some(reflecting) = term
@@ -64,11 +68,11 @@ impl CurveShader {
         surface: &MaterialCurves,
         emitter: usize,
         shares: [f64; 2],
-        shifts: [f64; 2],
+        shifts: &Shifts,
         scratch: &mut ShadeScratch,
     ) -> [f64; 3] {
         let mut sum = [0.0; 3];
-        let [ln_surface, ln_lamp] = shifts.map(f64::ln);
+        let [ln_surface, ln_lamp] = shifts.ln;
         let emitter = &self.emitters[emitter];
         for (term, share) in surface.reflecting().zip(shares) {
             let Some(reflecting) = term else { continue };
@@ -91,8 +95,8 @@ impl CurveShader {
                 }
                 _ => {
                     let [light, reflected] = scratch.buffers(self.sensor.axis().count());
-                    let factor = emitter.curve.read(shifts[1], light)
-                        * reflectance.read(shifts[0], reflected);
+                    let factor = emitter.curve.read(shifts.factors[1], light)
+                        * reflectance.read(shifts.factors[0], reflected);
                     for (reflected, light) in reflected.iter_mut().zip(&*light) {
                         *reflected *= light;
                     }
