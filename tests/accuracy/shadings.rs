@@ -334,7 +334,8 @@ fn the_stated_bound_holds_at_every_spacing() {
         );
         for (index, found) in all.iter().enumerate() {
             let Found { error, bound, .. } = found[i];
-            assert!(error <= bound, "{} at {count}: {error:e} {bound:e}", index);
+            let number = TENTH * index;
+            assert!(error <= bound, "{number} at {count}: {error:e} {bound:e}");
         }
         // Nor is it so loose that it says nothing: so far 0.12 to 0.01.
         assert!(greatest > 0.005, "{count}: {greatest:e}");
