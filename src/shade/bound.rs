@@ -3,7 +3,7 @@
 use super::curve::Curve;
 use super::curves::CurveShader;
 use super::table::XyzTable;
-use crate::spectrum::{GridBound, PlanckShape, Quadrature, Roughness, Spectrum, planck};
+use crate::spectrum::{GridBound, Quadrature, Roughness, Spectrum, planck};
 
 /// Error of black bodies that are tabulated over ln T, relative: 2e-5 where all that the window
 /// holds of them is 1e-80 of their light, less where it is more.
@@ -43,12 +43,9 @@ impl CurveShader {
             }
             if let Some(glow) = &surface.glow {
                 let (kelvin, emissivity) = glow.parts();
-                let shape = Spectrum::Planck(PlanckShape {
-                    temperature_k: kelvin,
-                    unit_at_nm: planck::peak_nm(kelvin),
-                });
                 let light = |nm| planck::radiance(nm, kelvin);
-                let body = Roughness::of(light, &shape, near, grid.step());
+                // Like a constant, Planck's curve bends nowhere.
+                let body = Roughness::of(light, &Spectrum::Constant(1.0), near, grid.step());
                 let factors = [body, rough(emissivity, near)];
                 worst = worst.max(grid.relative(&factors) + BLACK_BODIES);
             }

@@ -58,7 +58,8 @@ impl Roughness {
         range_nm: [f64; 2],
         step: f64,
     ) -> Self {
-        let [from, to] = range_nm;
+        // However fast a scene is: beyond, f64 has no wavelengths.
+        let [from, to] = range_nm.map(|nm| nm.clamp(1e-300, 1e300));
         let mut cuts = vec![from, to];
         cuts_nm(spectrum, 1.0, &mut cuts);
         let knots = spectrum.knots_nm();
@@ -308,6 +309,18 @@ mod tests {
         assert!((3.0..5.0).contains(&ratio(&[bent])), "{}", ratio(&[bent]));
         let narrow = ratio(&[line(0.01)]);
         assert!((1.5..2.5).contains(&narrow), "{narrow}");
+    }
+
+    #[test]
+    fn it_is_finite_in_any_window_and_within_any_reach() {
+        for window in [[1e-9, 1e15], [589.0, 589.001], [1e7, 1e9]] {
+            let sensor = Sensor::bands(LogAxis::new(window, 84));
+            let bound = GridBound::new(&sensor, &Quadrature::bands(window), Some(1e-3));
+            let line = Spectrum::gaussian(589.0, 1.0).unwrap();
+            let rough = Roughness::of(|nm| line.at(nm), &line, [0.0, f64::INFINITY], bound.step());
+            let found = bound.relative(&[rough, rough]);
+            assert!(found.is_finite() && found > 0.0, "{window:?}: {found:e}");
+        }
     }
 
     #[test]

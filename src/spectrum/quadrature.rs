@@ -154,8 +154,9 @@ impl Quadrature {
         let (middle, half) = (0.5 * (from + to), 0.5 * (to - from));
         let (mut kronrod, mut gauss) = ([0.0; 3], [0.0; 3]);
         let mut add = |nm: f64, better: f64, worse: f64| {
-            // No number counts as nothing.
-            let value = curve(nm).min(LARGEST).max(0.0);
+            let value = curve(nm);
+            // What is no number counts as nothing.
+            let value = if value > 0.0 { value.min(LARGEST) } else { 0.0 };
             for (c, weight) in (0..).zip(self.weights(nm, middle)) {
                 kronrod[c] += better * weight * value;
                 gauss[c] += worse * weight * value;

@@ -70,7 +70,8 @@ impl Random {
         match self.below(4) {
             0 => illuminant("D65").unwrap(),
             1 => illuminant(NAMES[self.below(NAMES.len())]).unwrap(),
-            2 => self.diode(),
+            // Where an author says nothing, ends go on.
+            2 => self.diode([360.0, 830.0], Beyond::Hold),
             _ => self.black_body(2000.0, 20_000.0),
         }
     }
@@ -80,9 +81,9 @@ impl Random {
         Spectrum::Planck(PlanckShape::new(kelvin, 560.0).unwrap())
     }
 
-    /// A white diode: a blue band and a broad yellow one, as points each 5 to 10 nm from 360 to
-    /// 830 nm, beyond which its ends go on, as they do where an author says nothing.
-    fn diode(&mut self) -> Spectrum {
+    /// A white diode: a blue band and a broad yellow one, as points each 5 to 10 nm over a range,
+    /// and what an author says of it beyond.
+    pub(crate) fn diode(&mut self, range_nm: [f64; 2], beyond: Beyond) -> Spectrum {
         let bands = [
             (1.0, self.between(440.0, 465.0), self.between(9.0, 15.0)),
             (
@@ -99,10 +100,10 @@ impl Random {
             bands.into_iter().map(band).sum()
         };
         let points: Vec<(f64, f64)> = (0..)
-            .map(|i| 360.0 + step * f64::from(i))
-            .take_while(|nm| *nm <= 830.0)
+            .map(|i| range_nm[0] + step * f64::from(i))
+            .take_while(|nm| *nm <= range_nm[1])
             .map(|nm| (nm, value(nm)))
             .collect();
-        Spectrum::Cardinal(Cardinal::new(&points, 0.0, Beyond::Hold).unwrap())
+        Spectrum::Cardinal(Cardinal::new(&points, 0.0, beyond).unwrap())
     }
 }

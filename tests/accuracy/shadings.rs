@@ -12,7 +12,7 @@ use restframe::shade::{Settings, ShadeScratch, Shader};
 use restframe::shot::{self, Accuracy, Shot, Spectra};
 use restframe::spectrum::cie::xyz_of;
 use restframe::spectrum::color_space::D65_XYZ;
-use restframe::spectrum::{Spectrum, planck};
+use restframe::spectrum::{Beyond, Spectrum, planck};
 use restframe::trace::{BodyHit, Lit, Node, Root, Seen, ShadeTrees, Surface};
 use std::sync::Arc;
 
@@ -260,13 +260,18 @@ fn found<const N: usize>(wall: &mut Wall, shading: &Shading, counts: [u32; N]) -
     })
 }
 
-fn of_all<const N: usize>(step: usize, counts: [u32; N]) -> Vec<[Found; N]> {
+/// Every so many of the shadings that `shading` makes of their numbers.
+fn of_all<const N: usize>(
+    shading: impl Fn(u64) -> Shading + Sync,
+    step: usize,
+    counts: [u32; N],
+) -> Vec<[Found; N]> {
     (0..SHADINGS)
         .step_by(step)
         .collect::<Vec<u64>>()
         .into_par_iter()
         .map_init(Wall::new, |wall, index| {
-            found(wall, &Shading::new(index), counts)
+            found(wall, &shading(index), counts)
         })
         .collect()
 }
@@ -276,18 +281,41 @@ fn of_all<const N: usize>(step: usize, counts: [u32; N]) -> Vec<[Found; N]> {
 #[test]
 fn the_default_grid_is_within_a_tenth_of_delta_e_of_exact_spectra() {
     let normal = Accuracy::default().wavelengths;
-    let all = of_all(1, [normal]);
+    let all = of_all(Shading::new, 1, [normal]);
     let found = Comparison::of(all.iter().map(|[found]| found.delta_e).collect());
     println!("{found:?}");
     assert!(found.p99 < 0.1, "{found:?}");
     assert!(found.worst < 0.25, "{found:?}");
 }
 
-/// Every fifth of the shadings, since fine tables take long.
+/// A known weakness: a lamp's table that ends at 1 % of its peak and is 0 beyond, where all of it
+/// that is in view is that end. A jump falls between two wavelengths, and the error with their
+/// distance alone. 99 % of a thousand are below 1.4, and below 0.22 with 336 wavelengths.
+#[test]
+fn a_lamp_that_ends_in_a_step_is_seen_less_exactly() {
+    let stepped = |index: u64| {
+        let lamp = Random(index).diode([380.0, 780.0], Beyond::Zero);
+        let mut shading = Shading {
+            lamp: Arc::new(lamp),
+            ..Shading::new(index)
+        };
+        (shading.material.emission, shading.material.thermal) = (None, None);
+        shading
+    };
+    let all = of_all(stepped, 5, [84]);
+    let found = Comparison::of(all.iter().map(|[found]| found.delta_e).collect());
+    println!("{found:?}");
+    assert!((0.1..2.0).contains(&found.p99), "{found:?}");
+    assert!(all.iter().all(|[found]| found.error <= found.bound));
+}
+
+/// Every tenth of the shadings, since fine tables take long. Of all of them at most 0.15 of the
+/// bound is used at 21 wavelengths, 0.02 at 336.
 #[test]
 fn the_stated_bound_holds_at_every_spacing() {
     const COUNTS: [u32; 5] = [21, 42, 84, 168, 336];
-    let all = of_all(5, COUNTS);
+    const TENTH: usize = 10;
+    let all = of_all(Shading::new, TENTH, COUNTS);
     for (i, count) in COUNTS.iter().enumerate() {
         let used = |found: &[Found; 5]| found[i].error / found[i].bound;
         let greatest = all.iter().map(used).fold(0.0, f64::max);
@@ -306,13 +334,10 @@ fn the_stated_bound_holds_at_every_spacing() {
         );
         for (index, found) in all.iter().enumerate() {
             let Found { error, bound, .. } = found[i];
-            assert!(
-                error <= bound,
-                "{} at {count}: {error:e} {bound:e}",
-                5 * index
-            );
+            let number = TENTH * index;
+            assert!(error <= bound, "{number} at {count}: {error:e} {bound:e}");
         }
-        // Nor is it so loose that it says nothing: measured 0.12 down to 0.01.
+        // Nor is it so loose that it says nothing: so far 0.12 to 0.01.
         assert!(greatest > 0.005, "{count}: {greatest:e}");
     }
 }
