@@ -8,6 +8,9 @@ use glam::DVec3;
 pub(super) struct Ball {
     pub(super) center: DVec3,
     pub(super) radius: f64,
+    /// How far the content reaches from the center, over the radius: at most 1. What comes no nearer
+    /// meets nothing.
+    pub(super) reach: f64,
 }
 
 impl Ball {
@@ -21,7 +24,12 @@ impl Ball {
             .map(|(p, r)| (p - center).length() + r)
             .fold(0.0, f64::max);
         let radius = 2f64.powi(reach.clamp(1e-290, 1e290).log2().ceil() as i32);
-        Self { center, radius }
+        let reach = (reach / radius).min(1.0);
+        Self {
+            center,
+            radius,
+            reach,
+        }
     }
 }
 
@@ -52,6 +60,12 @@ pub(super) fn near_side<R: Real>(
     // What is no number, since it left the range, misses too.
     let meets = R::dot(passing, passing) <= span * span && span <= R::of(LOST) * radius;
     meets.then(|| (closest - span / d2.sqrt()).max(zero))
+}
+
+/// What is left of `reach` from `start` on, not less by rounding: a tree must open what lies there.
+#[inline(always)]
+pub(super) fn left<R: Real>(reach: R, start: R) -> R {
+    (reach - start) + R::of(ENDS_OFF) * R::EPSILON * start
 }
 
 /// Whether a ray of unit direction comes from so near a ball that [`near_side`] takes it there: the

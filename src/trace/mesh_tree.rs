@@ -1,6 +1,6 @@
 //! The triangles of one mesh, shared by its instances, and the rays that meet them.
 
-use super::ball::{Ball, near_side};
+use super::ball::{Ball, left, near_side};
 use super::bvh::{Bvh, TreeRay};
 use super::real::Real;
 use super::stage::{Approach, Hit, Member};
@@ -195,7 +195,7 @@ impl<R: Real> LocalRay<R> {
     fn enter(member: &Member<R>, ray: &Approach<R>, reach: R) -> Option<Self> {
         let (from_center, direction) = in_ball(member, ray);
         let d2 = R::dot(direction, direction);
-        let start = near_side(from_center, direction, d2, R::of(1.0))?;
+        let start = near_side(from_center, direction, d2, member.ball_reach)?;
         (start < reach).then(|| Self::new((from_center, direction, d2), start, reach))
     }
 
@@ -203,7 +203,7 @@ impl<R: Real> LocalRay<R> {
     fn passing(member: &Member<R>, ray: &Approach<R>, reach: R) -> Self {
         let (from_center, direction) = in_ball(member, ray);
         let d2 = R::dot(direction, direction);
-        let start = near_side(from_center, direction, d2, R::of(1.0))
+        let start = near_side(from_center, direction, d2, member.ball_reach)
             .unwrap_or_else(|| (-R::dot(from_center, direction) / d2).max(R::of(0.0)));
         Self::new((from_center, direction, d2), start, reach)
     }
@@ -218,7 +218,7 @@ impl<R: Real> LocalRay<R> {
             tree_ray: TreeRay {
                 origin,
                 direction: direction / length,
-                reach: (reach - start) * length,
+                reach: left(reach, start) * length,
             },
             sheared: ShearedRay::new(R::to_array(origin), R::to_array(direction)),
         }

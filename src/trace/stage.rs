@@ -9,7 +9,7 @@
 //! A stage in f32 ([`Stage::with_precision`]) has its border here too, only all of what lies beyond
 //! is f32: the ray once it is boosted, where bodies stand, triangles, and what is found.
 
-use super::ball::{Ball, brought_near, is_near, near_side};
+use super::ball::{Ball, brought_near, is_near, left, near_side};
 use super::bvh::{Bvh, TreeRay};
 use super::mesh_tree::{MeshTree, starting_point};
 use super::real::Real;
@@ -193,6 +193,8 @@ struct Crowd<R: Real> {
     /// The ball's, as rays meet it.
     center: R::Vector,
     radius: R,
+    /// How far the bodies reach from the center.
+    reach: R,
     tree: Bvh,
     members: Vec<Member<R>>,
     /// Every mesh of the geometry, for a later stage to take over.
@@ -209,6 +211,8 @@ pub(super) struct Member<R: Real> {
     pub(super) center: R::Vector,
     /// How near, in units of the ball, a ray that starts on a surface may be to it.
     pub(super) starting_point: R,
+    /// Reach of the mesh in its unit ball.
+    pub(super) ball_reach: R,
     /// Whether triangles are passed through from behind. Front and back are those of the mesh
     /// itself, also in a mirrored instance (glTF 2.0 §3.7.4).
     pub(super) single_sided: bool,
@@ -252,6 +256,7 @@ impl<R: Real> Crowd<R> {
             ball,
             center: R::vector(ball.center),
             radius: R::of(ball.radius),
+            reach: R::of(ball.radius * ball.reach),
             tree,
             members,
             meshes: meshes.to_vec(),
@@ -275,7 +280,7 @@ impl<R: Real> Crowd<R> {
             match mesh.nearest(member, ray, limit, best) {
                 Some(hit) => {
                     best = Some(hit);
-                    (hit.t - start) / self.radius
+                    left(hit.t, start) / self.radius
                 }
                 None => R::of(f64::INFINITY),
             }
@@ -309,7 +314,7 @@ impl<R: Real> Crowd<R> {
     /// the ray from nearer by, and how much nearer.
     #[inline(always)]
     fn nearby(&self, ray: &RestRay) -> Option<(f64, Approach<R>)> {
-        let Ball { center, radius } = self.ball;
+        let Ball { center, radius, .. } = self.ball;
         let from_center = ray.origin - center;
         let (way, origin) = if is_near(from_center, ray.direction, radius) {
             (0.0, ray.origin)
@@ -327,12 +332,12 @@ impl<R: Real> Crowd<R> {
     /// The ray in unit-ball coordinates from where it comes near the ball, and how far that is.
     fn entering(&self, ray: &Approach<R>, reach: R) -> Option<(R, TreeRay<R>)> {
         let from_center = ray.origin - self.center;
-        let start = near_side(from_center, ray.direction, R::of(1.0), self.radius)?;
+        let start = near_side(from_center, ray.direction, R::of(1.0), self.reach)?;
         (start < reach).then(|| {
             let tree_ray = TreeRay {
                 origin: (from_center + ray.direction * start) / self.radius,
                 direction: ray.direction,
-                reach: (reach - start) / self.radius,
+                reach: left(reach, start) / self.radius,
             };
             (start, tree_ray)
         })
@@ -349,6 +354,7 @@ impl<R: Real> Member<R> {
             unit_from_rest: R::matrix(unit_from_rest),
             center: R::vector(center),
             starting_point: starting_point(unit_from_rest, center),
+            ball_reach: R::of(mesh.ball.reach),
             single_sided: !instance.double_sided,
         }
     }
