@@ -1,6 +1,6 @@
 //! A spectrum as the shader holds it: baked on the sensor's axis, or as its author wrote it.
 
-use crate::spectrum::{Baked, LogAxis, Spectrum};
+use crate::spectrum::{Baked, LogAxis, Smoothing, Spectrum};
 use std::sync::Arc;
 
 /// weight × spectrum, at most `limit`, ready to be read under any shift.
@@ -23,16 +23,19 @@ impl Curve {
         axis: LogAxis,
         reach: Option<f64>,
     ) -> Self {
-        let spectrum = Arc::clone(spectrum);
         let mut curve = Self {
-            spectrum,
+            spectrum: Arc::clone(spectrum),
             weight,
             limit,
             axis,
             baked: None,
         };
-        curve.baked =
-            reach.and_then(|reach| Baked::new(axis, reach, curve.support_nm(), |nm| curve.at(nm)));
+        curve.baked = reach.and_then(|reach| {
+            let smoothing = Smoothing::of(spectrum);
+            Baked::new(axis, reach, curve.support_nm(), smoothing, |nm| {
+                curve.at(nm)
+            })
+        });
         curve
     }
 

@@ -11,11 +11,11 @@
 //! error that falls with the spacing h, a bend m = 2 and h², what is smooth m = 3 and h³. Kernels
 //! come from the sensor's own weights, variations from curves sampled finer than h.
 //!
-//! Added are, by the same reasoning, linear interpolation between the phases of baked curves, cubic
+//! Added are, by the same reasoning, the smoothing of curves through points, linear interpolation between the phases of baked curves, cubic
 //! interpolation in tables over ln D, and rounding to f32.
 
 use super::Spectrum;
-use super::log_grid::PHASE_SPACING;
+use super::log_grid::{PHASE_SPACING, Smoothing};
 use super::quadrature::{Quadrature, cuts_nm};
 use super::sensor::Sensor;
 
@@ -41,6 +41,8 @@ pub struct Roughness {
     largest: [f64; 3],
     /// Total variations of f, f′ and f″.
     variation: [f64; 3],
+    /// What is done to it before it is tabulated.
+    smoothing: Smoothing,
 }
 
 impl Roughness {
@@ -48,6 +50,7 @@ impl Roughness {
     pub const CONSTANT: Self = Self {
         largest: [1.0, 0.0, 0.0],
         variation: [0.0; 3],
+        smoothing: Smoothing::None,
     };
 
     /// Of a curve (of the wavelength in nm) that bends where `spectrum` does, over a range of
@@ -81,7 +84,10 @@ impl Roughness {
                 (low + width * part, curve(nm.min(pair[1])))
             }));
         }
-        Self::sampled(&samples)
+        Self {
+            smoothing: Smoothing::of(spectrum),
+            ..Self::sampled(&samples)
+        }
     }
 
     /// Of samples (ln λ, value), ascending.
@@ -115,6 +121,7 @@ impl Roughness {
                 vva + vvb + 2.0 * mixed(va, lb, vb, la),
                 vvva + vvvb + 3.0 * (mixed(vva, lb, vb, lla) + mixed(va, llb, vvb, la)),
             ],
+            smoothing: Smoothing::None,
         }
     }
 }
@@ -229,7 +236,10 @@ impl GridBound {
             let rest = nothing_of(kernel.largest[order], product.variation[order]);
             sum = sum.min(taylor + rest);
         }
-        let phases: f64 = factors.iter().map(|f| self.phases(kernel, f)).sum();
+        let phases: f64 = factors
+            .iter()
+            .map(|f| self.phases(kernel, f) + self.smoothing(kernel, f))
+            .sum();
         let tables = self
             .table_spacing
             .map_or(0.0, |step| self.tables(kernel, &product, step));
@@ -247,6 +257,20 @@ impl GridBound {
         (kernel.weight * jump)
             .min(kernel.weight * step / 4.0 * bend)
             .min(kernel.weights * step * step / 8.0 * f.largest[2])
+    }
+
+    /// Of curves that are smoothed: their sum of |f̃ − f|, each at the largest weight.
+    fn smoothing(&self, kernel: &Kernel, f: &Roughness) -> f64 {
+        if f.smoothing == Smoothing::None {
+            return 0.0;
+        }
+        let mut spacing = 1.0;
+        let mut least = f64::INFINITY;
+        for (reach, variation) in Smoothing::REACH.into_iter().zip(f.variation) {
+            least = least.min(reach * spacing * variation);
+            spacing *= self.spacing;
+        }
+        kernel.weight * least
     }
 
     /// Of Catmull and Rom's cubic between the entries of a table: its kernels are at most 1.13, δ/4

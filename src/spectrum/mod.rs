@@ -26,7 +26,7 @@ pub use bound::{GridBound, Roughness};
 pub use cardinal::{Beyond, Cardinal};
 pub use illuminant::illuminant;
 pub use lines::{LINES_NM, LineAxis, Lines};
-pub use log_grid::{Baked, LogAxis, Shifted};
+pub use log_grid::{Baked, LogAxis, Shifted, Smoothing};
 pub use planck::PlanckShape;
 pub use quadrature::Quadrature;
 pub use sampled::Sampled;

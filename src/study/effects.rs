@@ -45,7 +45,10 @@ fn effects(called: &Called) -> [Effect; 7] {
     ]
 }
 
-/// Costs of all effects, each timed by `rounds` pairs.
+/// Pairs of renders a round: what an effect costs may be less than times differ.
+const PAIRS: u32 = 3;
+
+/// Costs of all effects, each timed by [`PAIRS`] pairs a round.
 pub(super) fn costs(
     start: &Start<'_>,
     library: &Library,
@@ -144,7 +147,7 @@ fn cost(
     rounds: u32,
 ) -> Result<EffectCost, StudyError> {
     let (mut with, mut without) = (Vec::new(), Vec::new());
-    for round in 0..rounds {
+    for round in 0..PAIRS * rounds {
         // Whoever comes second finds warmer caches: turn about.
         let pair = if round % 2 == 0 {
             [(on, &mut with), (off, &mut without)]
@@ -161,13 +164,14 @@ fn cost(
         .map(|(a, b)| a / b - 1.0)
         .collect();
     ratios.sort_by(f64::total_cmp);
-    let quarter = ratios.len() / 4;
+    // Without a tenth at either end.
+    let tenth = ratios.len().div_ceil(10).min((ratios.len() - 1) / 2);
     Ok(EffectCost {
         effect: "",
         called: false,
         why: String::new(),
         cost: median(&ratios),
-        spread: (ratios[ratios.len() - 1 - quarter] - ratios[quarter]) / 2.0,
+        spread: (ratios[ratios.len() - 1 - tenth] - ratios[tenth]) / 2.0,
         on: timing(with),
         off: timing(without),
         paper: None,

@@ -200,7 +200,7 @@ pub struct EffectCost {
     pub off: Timing,
     /// Median over repeats of on/off − 1 of neighbouring renders: 0.02 is 2 %.
     pub cost: f64,
-    /// Half of the range in which the middle half of those ratios lies.
+    /// Half of the range in which those ratios lie, without a tenth of them at either end.
     pub spread: f64,
     /// What the 1990 paper says, such as "under 5 %".
     pub paper: Option<&'static str>,

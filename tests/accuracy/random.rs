@@ -70,8 +70,11 @@ impl Random {
         match self.below(4) {
             0 => illuminant("D65").unwrap(),
             1 => illuminant(NAMES[self.below(NAMES.len())]).unwrap(),
-            // Where an author says nothing, ends go on.
-            2 => self.diode([360.0, 830.0], Beyond::Hold),
+            // A table of the visible; ends go on where an author says nothing.
+            2 => {
+                let beyond = [Beyond::Hold, Beyond::Zero][self.below(2)];
+                self.diode([380.0, 780.0], beyond)
+            }
             _ => self.black_body(2000.0, 20_000.0),
         }
     }

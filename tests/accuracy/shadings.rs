@@ -276,21 +276,23 @@ fn of_all<const N: usize>(
         .collect()
 }
 
-/// Measured: mean 0.003, 99 % below 0.07, the worst 0.16: a polyline at 5 nm under so many shifts
-/// that it is finer than the grid, in colours of which little is seen.
+/// Measured: mean 0.002, 99 % below 0.016, the worst 0.40: a lamp whose table ends in a step, where
+/// little else of it is in view. Before curves through points were smoothed, 99 % were below 0.16.
+/// Were light down to 1e-30 cd/m² exposed until it is seen, 99 % would be below 0.09.
 #[test]
 fn the_default_grid_is_within_a_tenth_of_delta_e_of_exact_spectra() {
     let normal = Accuracy::default().wavelengths;
     let all = of_all(Shading::new, 1, [normal]);
     let found = Comparison::of(all.iter().map(|[found]| found.delta_e).collect());
     println!("{found:?}");
-    assert!(found.p99 < 0.1, "{found:?}");
-    assert!(found.worst < 0.25, "{found:?}");
+    // A fifth of what is allowed.
+    assert!(found.p99 < 0.02, "{found:?}");
+    assert!(found.worst < 0.5, "{found:?}");
 }
 
 /// A known weakness: a lamp's table that ends at 1 % of its peak and is 0 beyond, where all of it
 /// that is in view is that end. A jump falls between two wavelengths, and the error with their
-/// distance alone. 99 % of a thousand are below 1.4, and below 0.22 with 336 wavelengths.
+/// distance alone. 99 % are below 0.22, the worst is 0.72; before smoothing 1.4 and 3.0.
 #[test]
 fn a_lamp_that_ends_in_a_step_is_seen_less_exactly() {
     let stepped = |index: u64| {
@@ -305,7 +307,7 @@ fn a_lamp_that_ends_in_a_step_is_seen_less_exactly() {
     let all = of_all(stepped, 5, [84]);
     let found = Comparison::of(all.iter().map(|[found]| found.delta_e).collect());
     println!("{found:?}");
-    assert!((0.1..2.0).contains(&found.p99), "{found:?}");
+    assert!((0.1..0.4).contains(&found.p99), "{found:?}");
     assert!(all.iter().all(|[found]| found.error <= found.bound));
 }
 

@@ -47,7 +47,7 @@ pub(super) fn effects(study: &Study) -> Markup {
         section #effects {
             h2 { "What each effect costs" }
             p { "The image rendered with and without each effect, in turns: the median of their "
-                "ratios, and half of the range of the middle half of them." }
+                "ratios, and half of the range of them, without a tenth at either end." }
             div.scroll { table {
                 thead { tr {
                     th { "Effect" } th { "Called for" } th.n { "With" } th.n { "Without" }
