@@ -155,8 +155,8 @@ fn tables_and_kernels_agree_with_the_sum_over_wavelengths() {
 }
 
 /// Measured 3e-5: in a wide window the lines of [`SHOT`] are narrower than the spacing of
-/// wavelengths, and a sum over bands, which end abruptly, is less smooth over ln D than XYZ. From
-/// 0.01 to 10 nm, 5e-4: there all of D65 is smoothed over a spacing of 8 %, whose edges show.
+/// wavelengths, and a sum over bands, which end abruptly, is less smooth over ln D than XYZ. 5e-4 where all
+/// of D65 is smoothed over a spacing of 5 to 8 %, whose edges show.
 #[test]
 fn they_agree_in_the_bands_of_any_window() {
     for (window, tolerance) in [
@@ -164,7 +164,7 @@ fn they_agree_in_the_bands_of_any_window() {
         ([575.0, 580.0], TOLERANCE),
         ([4e3, 14e3], 5e-5),
         ([0.01, 10.0], 1e-3),
-        ([1e7, 1e9], 5e-5),
+        ([1e7, 1e9], 1e-3),
     ] {
         let (mut shot, scene) = shot("\"leaf\"");
         shot.sensor.window = window;

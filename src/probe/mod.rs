@@ -4,11 +4,12 @@ mod plot;
 
 pub use plot::{WideBand, plot, wide_band};
 
+use crate::film::Channels;
 use crate::relativity::Event;
-use crate::render::{LabPath, View, development};
+use crate::render::{self, LabPath, View, development};
 use crate::scene::Scene;
-use crate::shade::Radiance;
-use crate::shot::Shot;
+use crate::shade::{Radiance, ShadeScratch};
+use crate::shot::{Accuracy, Shot, Spectra};
 use crate::trace::{Branch, Node, Scratch, Seen, ShadeTrees, Surface, Term};
 use glam::DVec3;
 use serde::Serialize;
@@ -30,7 +31,7 @@ pub struct Probe {
     pub wavelengths: Vec<f64>,
     /// Spectral radiance there, W·m⁻²·sr⁻¹·nm⁻¹.
     pub radiance: Vec<f64>,
-    /// CIE 1931 XYZ of that radiance, cd/m²: 0 where the window leaves out the visible.
+    /// CIE 1931 XYZ, cd/m², as the picture has them: 0 where the window leaves out the visible.
     pub xyz: [f64; 3],
     /// Linear sRGB after exposure; under `sensor.color = "bands"` the three bands after exposure.
     pub rgb: [f64; 3],
@@ -99,23 +100,30 @@ pub fn probe(
     scene: &Scene,
     exposure: f64,
 ) -> Probe {
-    let count = view.shader().wavelengths_nm().len();
-    let (chain, cut, light, direction) = match look(shot, pixel, view, scene) {
-        Some((trees, direction)) => {
-            let root = trees.roots[0];
-            let chain = chain(view, scene, trees.nodes_of(root), direction);
-            (
-                chain,
-                root.cut,
-                view.shader().radiance(&trees, root),
-                Some(direction),
-            )
-        }
-        None => (Vec::new(), 0.0, Radiance::new(count), None),
-    };
+    let shader = view.shader();
+    let mut light = Radiance::new(shader.wavelengths_nm().len());
+    let (mut chain, mut cut, mut channels, mut direction) = (Vec::new(), 0.0, [0.0; 3], None);
+    if let Some((trees, towards)) = look(shot, pixel, view, scene) {
+        let root = trees.roots[0];
+        chain = self::chain(view, scene, trees.nodes_of(root), towards);
+        cut = root.cut;
+        light = if shot.accuracy.spectra == Spectra::Grid {
+            // The grid's own curves are made for sums: what bends is smoothed.
+            let Accuracy { wavelengths, .. } = shot.accuracy;
+            let exact = view.shader_over(shot.sensor.window, wavelengths);
+            exact.radiance(&trees, root)
+        } else {
+            shader.radiance(&trees, root)
+        };
+        // As the picture has them, however spectra are held.
+        channels = shader.xyz(&trees, root, &mut ShadeScratch::default());
+        direction = Some(towards);
+    }
     let radiance = light.total();
-    let channels = view.shader().xyz_of(&radiance);
-    let xyz = view.shader().eye_of(&radiance);
+    let xyz = match render::channels(shot) {
+        Channels::Xyz => channels,
+        Channels::Bands => shader.eye_of(&radiance),
+    };
     let gain = exposure.exp2() / 100.0;
     let rgb = development(shot, exposure).rgb_from_xyz.map(|row| {
         let terms = row.iter().zip(channels).map(|(m, v)| m * v);

@@ -22,6 +22,8 @@ const DARK_NM_K: f64 = 25.0 * 830.0;
 /// λT (nm·K) above which B is proportional to T (Rayleigh–Jeans) within x/2 = 2e-7; at the window's
 /// shortest wavelength it is the hottest entry, 1e11 K for the visible.
 const BRIGHT_NM_K: f64 = 1e11 * 360.0;
+/// A channel of no more than this counts as dark; less light than any film holds.
+const DARK: f64 = 1e-300;
 /// Entries per unit of ln T. The logarithm's slope and curvature are about x, taken where most of
 /// the channel's light is: the cubic's error is below 1e-6 at x = 20 (1000 K in the visible), 2e-5
 /// at 200. Over the widest windows there are 8000 entries.
@@ -74,9 +76,10 @@ impl BlackBodies {
             // A warmer body is brighter at every wavelength. The cubic would swing up where a
             // channel begins: its sum over a coarse axis may be nothing at one entry, and not at
             // the next.
-            ln.clamp(below[c].min(above[c]), above[c].max(below[c]))
-                .exp()
-                * beyond
+            let light = ln
+                .clamp(below[c].min(above[c]), above[c].max(below[c]))
+                .exp();
+            if light > DARK { light * beyond } else { 0.0 }
         })
     }
 }
