@@ -84,7 +84,7 @@ const MOST_COLUMNS: f64 = 262_144.0;
 /// A curve tabulated for reading at an axis' wavelengths under any shift.
 #[derive(Debug, Clone)]
 pub struct Baked {
-    /// PHASES rows of `columns`; row p, column c is the curve at place first + c + p/PHASES.
+    /// PHASES rows of `columns`, and [`LANES`] more that kernels may read; row p, column c is the curve at place first + c + p/PHASES.
     rows: Vec<f32>,
     columns: usize,
     /// Place of column 0.
@@ -151,6 +151,9 @@ impl Smoothing {
     }
 }
 
+/// Values that kernels take at a time.
+pub(super) const LANES: usize = 8;
+
 /// Columns beside a curve's support that smoothing may touch.
 const TOUCHED: i64 = 2;
 
@@ -187,7 +190,7 @@ impl Baked {
         let values = smoothing.apply((0..columns * PHASES).map(fine).collect());
         let peak = values.iter().copied().fold(0.0, f64::max);
         let scale = if peak > 0.0 { 1.0 / peak } else { 0.0 };
-        let mut rows = vec![0.0; columns * PHASES];
+        let mut rows = vec![0.0; columns * PHASES + LANES];
         for (i, value) in values.iter().enumerate() {
             let shape = (value * scale) as f32;
             // Subnormal numbers would cost the kernel four-fold.
@@ -216,7 +219,7 @@ impl Baked {
         let below = at as usize;
         let row = |i: usize| {
             let start = i % PHASES * self.columns + i / PHASES;
-            &self.rows[start..start + self.axis.count]
+            &self.rows[start..start + self.axis.count.next_multiple_of(LANES)]
         };
         Shifted {
             a: row(below),
@@ -227,7 +230,8 @@ impl Baked {
 }
 
 impl<'a> Shifted<'a> {
-    /// The two rows, as long as the axis, and their weights.
+    /// The two rows, as long as the axis and on to the next multiple of [`LANES`] with numbers that
+    /// count for nothing, and their weights.
     #[inline(always)]
     pub(super) fn rows(&self) -> ([&'a [f32]; 2], [f32; 2]) {
         ([self.a, self.b], [1.0 - self.weight, self.weight])

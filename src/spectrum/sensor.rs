@@ -3,7 +3,7 @@
 
 use super::band;
 use super::cie::{EFFICACY, RANGE_NM, xyz_bar};
-use super::log_grid::{LogAxis, Shifted};
+use super::log_grid::{LANES, LogAxis, Shifted};
 
 /// Longest steps of the quadrature that makes the weights of XYZ, nm.
 const STEP_NM: f64 = 0.1;
@@ -173,6 +173,8 @@ impl Sensor {
         for (weights, ((a, b), (c, d))) in self.lanes.iter().zip(chunks) {
             sums.add(weights, value(*a, *b, *c, *d));
         }
+        // Rows end at a multiple of the lanes, so nothing is left; but without this branch the loop
+        // above is compiled to half the speed (rustc 1.95; 7 ns a chunk in place of 4).
         if let Some(weights) = self.lanes.get(a.0.len()) {
             let [a, b, c, d] = [a.1, b.1, c.1, d.1].map(padded);
             sums.add(weights, value(a, b, c, d));
@@ -209,9 +211,6 @@ fn padded(rest: &[f32]) -> [f32; LANES] {
     lanes[..rest.len()].copy_from_slice(rest);
     lanes
 }
-
-/// Partial sums kept side by side.
-const LANES: usize = 8;
 
 /// Weights of the four neighbours of a point a fraction t past the second (Catmull & Rom 1974).
 pub fn catmull_rom(t: f64) -> [f64; 4] {
