@@ -33,7 +33,7 @@ position = [0, 0, 14]
 exposure = 0
 "#;
 
-/// A scene and how large its picture is to be; `filter` is apart, since the table of the smooth one
+/// A scene and how large its picture is to be; `filter` is apart, since the smooth one
 /// takes a time of its own.
 struct Picture {
     scene: String,

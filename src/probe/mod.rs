@@ -107,8 +107,9 @@ pub fn probe(
         let root = trees.roots[0];
         chain = self::chain(view, scene, trees.nodes_of(root), towards);
         cut = root.cut;
-        light = if shot.accuracy.spectra == Spectra::Grid {
-            // The grid's own curves are made for sums: what bends is smoothed.
+        light = if matches!(shot.accuracy.spectra, Spectra::Grid | Spectra::Rgb) {
+            // The grid's own curves are made for sums: what bends is smoothed. Three numbers have
+            // none.
             let Accuracy { wavelengths, .. } = shot.accuracy;
             let exact = view.shader_over(shot.sensor.window, wavelengths);
             exact.radiance(&trees, root)

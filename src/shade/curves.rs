@@ -57,6 +57,10 @@ impl CurveShader {
         let glows = surfaces.iter().any(|s| s.glow.is_some());
         let bodies = (glows || scene.background.stars.is_some())
             .then(|| Arc::new(BlackBodies::new(&sensor)));
+        if let (true, Some(bodies)) = (tabulated, &bodies) {
+            // Before the threads that would wait for it.
+            bodies.entries();
+        }
         let sky = SkyShade::new(&scene.background, &bake, bodies.clone());
         Self {
             received: Received::new(settings.called),

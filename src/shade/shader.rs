@@ -8,16 +8,13 @@ use super::passage::Passages;
 use super::radiance::Radiance;
 use super::rgb::RgbShader;
 use crate::scene::Scene;
-use crate::shot::{self, Accuracy, SensorColor, Spectra};
+use crate::shot::{self, SensorColor, Spectra};
 use crate::spectrum::{Lines, LogAxis, Quadrature, Sensor};
 use crate::trace::{Root, ShadeTrees};
 
 /// Turns shade trees to light.
 pub struct Shader {
     sensor: Sensor,
-    /// The scene's curves; in a mode that is not about curves, as their author wrote them, for
-    /// [`Shader::radiance`].
-    curves: CurveShader,
     held: Held,
     /// What a grid's error is stated against; None in other modes.
     reference: Option<Quadrature>,
@@ -26,13 +23,13 @@ pub struct Shader {
 /// What makes channels of shade trees.
 enum Held {
     /// The scene's curves.
-    Curves,
+    Curves(CurveShader),
     /// Samples at equal distances.
     Lines(Box<LineShader>),
     /// Three numbers.
     Rgb(Box<RgbShader>),
     /// The scene's curves as their author wrote them, by quadrature.
-    Exact(Quadrature),
+    Exact(CurveShader, Quadrature),
 }
 
 impl Shader {
@@ -46,30 +43,20 @@ impl Shader {
             SensorColor::Cie1931 => Sensor::cie1931(axis),
             SensorColor::Bands => Sensor::bands(axis),
         };
-        let (curves, held) = match settings.accuracy.spectra {
-            Spectra::Grid | Spectra::Spline => (settings.accuracy.spectra, Held::Curves),
-            Spectra::Lines => {
-                let lines = LineShader::new(scene, settings, axis);
-                (Spectra::Spline, Held::Lines(Box::new(lines)))
-            }
-            Spectra::Rgb => {
-                let rgb = RgbShader::new(scene, settings, &sensor);
-                (Spectra::Spline, Held::Rgb(Box::new(rgb)))
-            }
-            Spectra::Exact => (Spectra::Spline, Held::Exact(quadrature(settings.sensor))),
-        };
         let grid = settings.accuracy.spectra == Spectra::Grid;
         let reference = grid.then(|| quadrature(settings.sensor));
-        let accuracy = Accuracy {
-            spectra: curves,
-            ..*settings.accuracy
-        };
-        let settings = Settings {
-            accuracy: &accuracy,
-            ..*settings
+        let held = match settings.accuracy.spectra {
+            Spectra::Grid | Spectra::Spline => {
+                Held::Curves(CurveShader::new(scene, settings, sensor.clone()))
+            }
+            Spectra::Exact => {
+                let curves = CurveShader::new(scene, settings, sensor.clone());
+                Held::Exact(curves, quadrature(settings.sensor))
+            }
+            Spectra::Lines => Held::Lines(Box::new(LineShader::new(scene, settings, axis))),
+            Spectra::Rgb => Held::Rgb(Box::new(RgbShader::new(scene, settings, &sensor))),
         };
         Self {
-            curves: CurveShader::new(scene, &settings, sensor.clone()),
             held,
             reference,
             sensor,
@@ -86,18 +73,20 @@ impl Shader {
     #[inline]
     pub fn xyz(&self, trees: &ShadeTrees, root: Root, scratch: &mut ShadeScratch) -> [f64; 3] {
         match &self.held {
-            Held::Curves => self.curves.xyz(trees, root, scratch),
+            Held::Curves(curves) => curves.xyz(trees, root, scratch),
             Held::Lines(lines) => lines.xyz(trees, root, &mut scratch.lines),
             Held::Rgb(rgb) => rgb.xyz(trees, root, &mut scratch.rgb),
-            Held::Exact(quadrature) => self.curves.exact(quadrature, trees, root),
+            Held::Exact(curves, quadrature) => curves.exact(quadrature, trees, root),
         }
     }
 
-    /// Spectral radiance that the camera receives along a ray, at [`Shader::wavelengths_nm`].
+    /// Spectral radiance that the camera receives along a ray, at [`Shader::wavelengths_nm`]; none
+    /// where spectra are three numbers.
     pub fn radiance(&self, trees: &ShadeTrees, root: Root) -> Radiance {
         match &self.held {
             Held::Lines(lines) => lines.radiance(trees, root),
-            Held::Curves | Held::Rgb(_) | Held::Exact(_) => self.curves.radiance(trees, root),
+            Held::Curves(curves) | Held::Exact(curves, _) => curves.radiance(trees, root),
+            Held::Rgb(_) => Radiance::new(self.sensor.axis().count()),
         }
     }
 
@@ -107,8 +96,10 @@ impl Shader {
     ///
     /// Takes some milliseconds.
     pub fn bound(&self) -> Option<f64> {
-        let reference = self.reference.as_ref()?;
-        Some(self.curves.bound(reference))
+        match (&self.held, &self.reference) {
+            (Held::Curves(curves), Some(reference)) => Some(curves.bound(reference)),
+            _ => None,
+        }
     }
 
     /// The sensor's channels of spectral radiance at [`Shader::wavelengths_nm`].

@@ -97,8 +97,8 @@ fn per_unit(axis: LogAxis) -> f64 {
 /// The range of ln D in which any wavelength of the axis reads inside the support.
 fn interesting(axis: LogAxis, support_nm: Option<[f64; 2]>) -> [f64; 2] {
     support_nm.map_or([0.0, 0.0], |[a, b]| {
-        let longest = axis.wavelength_nm(axis.count() as f64);
-        let shortest = axis.wavelength_nm(-1.0);
+        let longest = axis.wavelength_nm((axis.count() + 1) as f64);
+        let shortest = axis.wavelength_nm(-2.0);
         [(a / longest).ln(), (b / shortest).ln()]
     })
 }

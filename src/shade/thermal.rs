@@ -6,10 +6,13 @@ use super::received::{Received, finite};
 use super::table::XyzTable;
 use crate::scene::{self, Thermal};
 use crate::spectrum::{LogAxis, Sensor, catmull_rom, planck};
+use std::sync::OnceLock;
 
 /// XYZ, or band totals, of black bodies by temperature: the logarithms of the three over ln T.
 pub(super) struct BlackBodies {
-    entries: Vec<[f64; 3]>,
+    /// Made where they are first asked for: curves alone need none.
+    entries: OnceLock<Vec<[f64; 3]>>,
+    sensor: Sensor,
     coldest_k: f64,
     hottest_k: f64,
 }
@@ -31,29 +34,38 @@ const PER_UNIT: f64 = 100.0;
 
 impl BlackBodies {
     pub(super) fn new(sensor: &Sensor) -> Self {
-        let wavelengths = sensor.axis().wavelengths_nm();
         let [shortest, longest] = sensor.axis().window_nm();
-        let (coldest_k, hottest_k) = (DARK_NM_K / longest, BRIGHT_NM_K / shortest);
+        Self {
+            entries: OnceLock::new(),
+            sensor: sensor.clone(),
+            coldest_k: DARK_NM_K / longest,
+            hottest_k: BRIGHT_NM_K / shortest,
+        }
+    }
+
+    /// The table.
+    pub(super) fn entries(&self) -> &[[f64; 3]] {
+        self.entries.get_or_init(|| self.tabulate())
+    }
+
+    fn tabulate(&self) -> Vec<[f64; 3]> {
+        let sensor = &self.sensor;
+        let wavelengths = sensor.axis().wavelengths_nm();
         let mut curve = vec![0.0; wavelengths.len()];
         let seen: Vec<(usize, f64)> = (0..)
             .zip(wavelengths)
             .filter(|(j, _)| sensor.sees(*j))
             .collect();
-        let count = ((hottest_k / coldest_k).ln() * PER_UNIT).ceil() as usize + 4;
-        let entries = (0..count)
+        let count = ((self.hottest_k / self.coldest_k).ln() * PER_UNIT).ceil() as usize + 4;
+        (0..count)
             .map(|i| {
-                let kelvin = coldest_k * ((i as f64 - 1.0) / PER_UNIT).exp();
+                let kelvin = self.coldest_k * ((i as f64 - 1.0) / PER_UNIT).exp();
                 for (j, nm) in &seen {
                     curve[*j] = planck::radiance(*nm, kelvin);
                 }
                 sensor.xyz(&curve).map(|v| v.max(f64::MIN_POSITIVE).ln())
             })
-            .collect();
-        Self {
-            entries,
-            coldest_k,
-            hottest_k,
-        }
+            .collect()
     }
 
     /// XYZ (cd/m²), or band totals (W·m⁻²·sr⁻¹), of a black body.
@@ -63,14 +75,15 @@ impl BlackBodies {
             return [0.0; 3];
         }
         let place = (kelvin.min(self.hottest_k) / self.coldest_k).ln() * PER_UNIT;
-        let first = (place as usize).min(self.entries.len() - 4);
+        let entries = self.entries();
+        let first = (place as usize).min(entries.len() - 4);
         let taps = catmull_rom(place - first as f64);
         let beyond = (kelvin / self.hottest_k).max(1.0);
-        let [_, below, above, _] = [0, 1, 2, 3].map(|i| self.entries[first + i]);
+        let [_, below, above, _] = [0, 1, 2, 3].map(|i| entries[first + i]);
         [0, 1, 2].map(|c| {
             let ln: f64 = taps
                 .iter()
-                .zip(&self.entries[first..])
+                .zip(&entries[first..])
                 .map(|(tap, entry)| tap * entry[c])
                 .sum();
             // A warmer body is brighter at every wavelength. The cubic would swing up where a

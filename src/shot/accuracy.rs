@@ -30,9 +30,9 @@ impl Default for Accuracy {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum Preset {
-    /// The cheapest whose colors stay within 0.5 (CIEDE2000) of exact ones.
+    /// The cheapest whose colors stay within 0.5 (CIEDE2000) of exact ones, but for rare pixels.
     Draft,
-    /// The cheapest whose colors stay within 0.1: the defaults.
+    /// The cheapest whose colors stay within 0.1, but for rare pixels: the defaults.
     #[default]
     Normal,
     /// Exact spectra, and mirrors followed until nothing is left: for checking others.
@@ -108,7 +108,7 @@ pub enum Spectra {
     Grid,
     /// The cardinal spline through the authored points, read anew for every shift: exact at every wavelength, slow.
     Spline,
-    /// Samples at equal distances from 50 to 5000 nm, resampled at every shift: as before 1990, slow and coarse.
+    /// Samples at equal distances from 50 to 5000 nm, resampled at every shift: as before 1990, slow and coarse; what a shift brings in from beyond is black.
     Lines,
     /// Three numbers, which no shift can reach: for frames that call for no Doppler effect.
     Rgb,
@@ -124,4 +124,25 @@ pub enum Precision {
     F64,
     /// 32 bits: 7 digits, as most renderers have.
     F32,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn parsed(keys: &str) -> Accuracy {
+        toml::from_str(keys).expect("the keys are those of the format")
+    }
+
+    #[test]
+    fn a_preset_chooses_what_its_author_does_not() {
+        assert_eq!(parsed(""), Preset::Normal.accuracy());
+        assert_eq!(parsed("preset = \"reference\"").spectra, Spectra::Exact);
+        let draft = parsed("preset = \"draft\"\nwavelengths = 100");
+        let expected = Accuracy {
+            wavelengths: 100,
+            ..Preset::Draft.accuracy()
+        };
+        assert_eq!(draft, expected);
+    }
 }

@@ -25,6 +25,9 @@ const KERNEL_STEPS: i64 = 128;
 /// What sampled variations may lack, and kernels: both converge from below.
 const SAFETY: f64 = 1.1;
 
+/// By how much smoothing may raise variations and derivatives: the sum of its kernel's sizes.
+const SMOOTHED: f64 = 7.0 / 6.0;
+
 /// Rounding of an f32 operation.
 const F32: f64 = 6e-8;
 
@@ -238,11 +241,11 @@ impl GridBound {
         }
         let phases: f64 = factors
             .iter()
-            .map(|f| self.phases(kernel, f) + self.smoothing(kernel, f))
+            .map(|f| SMOOTHED * self.phases(kernel, f) + self.smoothing(kernel, f))
             .sum();
-        let tables = self
-            .table_spacing
-            .map_or(0.0, |step| self.tables(kernel, &product, step));
+        let tables = self.table_spacing.map_or(0.0, |step| {
+            SMOOTHED * SMOOTHED * self.tables(kernel, &product, step)
+        });
         // Sums of eight lanes, and a few operations on each value.
         let rounding = F32 * (self.wavelengths / 8.0 + 16.0) * kernel.weights;
         // Cubic taps carry the errors of their entries by at most 1.25.

@@ -1,7 +1,7 @@
 //! What each effect costs: the image with it against the image without, turn by turn.
 
 use super::findings::EffectCost;
-use super::rounds::{median, timing};
+use super::rounds::{median, most_rounds as pairs, timing};
 use super::subject::{Bodies, Subject, Variant};
 use super::{Start, StudyError};
 use crate::plan::Called;
@@ -19,7 +19,7 @@ struct Effect {
     paper: Option<&'static str>,
 }
 
-fn effects(called: &Called) -> [Effect; 7] {
+fn effects(called: &Called) -> [Effect; 6] {
     let effect = |name, called, off| Effect {
         name,
         called,
@@ -40,8 +40,9 @@ fn effects(called: &Called) -> [Effect; 7] {
         }),
         effect("thermal", called.thermal, |e| e.thermal = Switch::Off),
         effect("shadows", called.shadows, |e| e.shadows = Switch::Off),
-        effect("mirror", called.mirror, |e| e.bounces = 0),
-        effect("refraction", called.refraction, |e| e.bounces = 0),
+        effect("mirror", called.mirror || called.refraction, |e| {
+            e.bounces = 0;
+        }),
     ]
 }
 
@@ -63,11 +64,13 @@ pub(super) fn costs(
             shot: without(start.shot, effect.off),
             ..on.clone()
         };
-        let why = called
-            .because
-            .iter()
-            .find(|reason| reason.effect == effect.name)
-            .map_or_else(String::new, |reason| reason.why.clone());
+        let named = match effect.name {
+            // The two are turned off together.
+            "mirror" if !called.mirror && called.refraction => "refraction",
+            name => name,
+        };
+        let why = called.because.iter().find(|reason| reason.effect == named);
+        let why = why.map_or_else(String::new, |reason| reason.why.clone());
         costs.push(EffectCost {
             effect: effect.name,
             called: effect.called,
@@ -129,8 +132,8 @@ fn second_worldline(
     };
     let why = match others {
         0 => "all bodies and lamps share one".to_owned(),
-        1 => "1 model or lamp is on another than the first model".to_owned(),
-        n => format!("{n} models and lamps are on others than the first model"),
+        1 => "1 model or lamp is on another than the first model; without, it moves along and another image is seen".to_owned(),
+        n => format!("{n} models and lamps are on others than the first model; without, they move along and another image is seen"),
     };
     Ok(EffectCost {
         effect: "second worldline",
@@ -147,7 +150,8 @@ fn cost(
     rounds: u32,
 ) -> Result<EffectCost, StudyError> {
     let (mut with, mut without) = (Vec::new(), Vec::new());
-    for round in 0..PAIRS * rounds {
+    let mut round = 0;
+    while round < pairs(PAIRS * rounds, with.first().copied()) {
         // Whoever comes second finds warmer caches: turn about.
         let pair = if round % 2 == 0 {
             [(on, &mut with), (off, &mut without)]
@@ -157,6 +161,7 @@ fn cost(
         for (variant, seconds) in pair {
             seconds.push(variant.run(subject)?.seconds);
         }
+        round += 1;
     }
     let mut ratios: Vec<f64> = with
         .iter()

@@ -1,7 +1,6 @@
 //! What a study found out: the content of its report, its JSON and its CSV.
 //!
-//! Times are seconds of wall clock on all threads, but for those of phases, which are summed over
-//! threads. Spectral radiance is compared as the sensor's channels of it.
+//! Times are seconds of wall clock; those of phases that threads share are divided by their number. Spectral radiance is compared as the sensor's channels of it.
 
 use serde::Serialize;
 
@@ -45,7 +44,7 @@ pub struct Machine {
     pub threads: usize,
     /// The program's version.
     pub version: &'static str,
-    /// Renders of each point.
+    /// Renders of each point; fewer of those that take long.
     pub repeats: u32,
 }
 
@@ -66,9 +65,11 @@ impl Noise {
         /// Medians of five differ by about half of what single times do.
         const OF_MEDIANS: f64 = 0.5;
         const LEAST: f64 = 0.02;
+        /// With more noise, a study says that it cannot tell.
+        const MOST: f64 = 0.1;
         (OF_MEDIANS * self.spread)
             .max((self.duplicate - 1.0).abs())
-            .max(LEAST)
+            .clamp(LEAST, MOST)
     }
 }
 
@@ -77,7 +78,7 @@ impl Noise {
 pub struct PhaseTime {
     /// "prepare", "aim", "boost", "traverse", "shadow", "surfaces", "shade", "develop", "write".
     pub phase: &'static str,
-    /// Seconds, summed over threads.
+    /// Seconds of wall clock, about.
     pub seconds: f64,
     /// Part of the sum of all phases.
     pub share: f64,
@@ -119,13 +120,14 @@ pub struct Point {
     pub frame: Timing,
     /// The phase that the knob touches.
     pub phase: Timing,
-    /// Greatest memory of the process meanwhile, MiB, where the system tells.
+    /// Greatest memory of the process meanwhile, MiB, where the system tells; bodies of all settings
+    /// of the knob are in it.
     pub memory_mib: Option<f64>,
     /// Bytes of the files that it makes, where the knob touches them.
     pub file_bytes: Option<u64>,
     /// Against the sweep's reference; None for the reference itself.
     pub errors: Option<Errors>,
-    /// No other setting is both faster and at least as exact.
+    /// No other setting is at least as exact and faster by more than [`Noise::tolerance`].
     pub pareto: bool,
 }
 
@@ -151,7 +153,8 @@ pub struct Errors {
     pub displacement: Option<Percentiles>,
     /// Part of the pixels that see another surface than they should.
     pub mistaken: Option<f64>,
-    /// What the program states, before it renders, that no shading can err by: of a channel, over
+    /// What the program states, before it renders, that no light seen without mirrors, glass, sky
+    /// images and stars can err by: of a channel, over
     /// that of an equal-energy light as bright as the product of the peaks of the spectra in reach.
     pub bound: Option<f64>,
 }
@@ -188,7 +191,7 @@ pub struct Halving {
 /// What an effect costs in this image.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct EffectCost {
-    /// "geometry", "doppler", "beaming", "thermal", "shadows", "mirror", "refraction", "second worldline".
+    /// "geometry", "doppler", "beaming", "thermal", "shadows", "mirror" (with glass), "second worldline".
     pub effect: &'static str,
     /// Whether the image calls for it.
     pub called: bool,

@@ -4,7 +4,7 @@
 //! In: a shot without mistakes. Out: a [`Study`]. The other knobs stand as the shot has them, in
 //! the setting and in what it is compared with, so that an error is that of the knob alone. Bodies
 //! and their trees are built before anything is timed, as for all frames of a sequence but the
-//! first.
+//! first. Where the shot's spectra are exact, other knobs and effects are studied by the grid.
 
 pub mod displacement;
 mod effects;
@@ -72,6 +72,7 @@ pub enum StudyError {
 }
 
 /// The image as the shot has it, from which every variant starts.
+#[derive(Clone)]
 pub(crate) struct Start<'a> {
     shot: &'a Shot,
     frame: u32,
@@ -130,8 +131,15 @@ pub fn study(
     let compared = compare(&start, &called, &subject, request.repeats)?;
     let noise = noise(&compared);
     let mut sweeps = Vec::new();
-    for knob in KNOBS {
-        let knob = knob(&start, &called);
+    let quick = by_grid(shot);
+    let quick = Start {
+        shot: &quick,
+        ..start.clone()
+    };
+    for (number, knob) in KNOBS.into_iter().enumerate() {
+        // Spectra come first.
+        let start = if number == 0 { &start } else { &quick };
+        let knob = knob(start, &called);
         news(&format!("{}: {} settings", knob.key, knob.variants.len()));
         sweeps.push(sweep::sweep(
             &knob,
@@ -142,7 +150,7 @@ pub fn study(
     }
     news("effects, off and on");
     let effects = effects::costs(
-        &start,
+        &quick,
         &prepared.library,
         &called,
         &subject,
@@ -155,6 +163,7 @@ pub fn study(
         lines,
         spline,
         grid,
+        lines_seen: knobs::lines_seen(shot, 5.0),
         geometry: called.geometry,
         doppler: called.doppler,
     };
@@ -183,6 +192,16 @@ pub fn study(
     })
 }
 
+/// The shot as its other knobs are studied: exact spectra would take hours, and their error is not
+/// that of the knob.
+fn by_grid(shot: &Shot) -> Shot {
+    let mut shot = shot.clone();
+    if shot.accuracy.spectra == Spectra::Exact {
+        shot.accuracy.spectra = Spectra::Grid;
+    }
+    shot
+}
+
 /// The shot as it is, twice; without shift; by lines, splines and the grid.
 fn compare(
     start: &Start<'_>,
@@ -206,12 +225,16 @@ fn compare(
         start.as_it_is(),
         start.as_it_is(),
         knobs::without_shift(start, called),
-        held(Spectra::Lines, 84),
+        if knobs::lines_seen(start.shot, 5.0) {
+            held(Spectra::Lines, 84)
+        } else {
+            start.as_it_is()
+        },
         held(Spectra::Spline, 81),
         held(Spectra::Grid, 84),
     ];
-    let mut measured = measure(&variants, subject, rounds)?.into_iter();
-    Ok(variants.map(|_| measured.next().expect("one is measured for each variant")))
+    let mut measured = measure(&variants, subject, rounds, |_, _| Ok(()))?.into_iter();
+    Ok(variants.map(|_| measured.next().expect("one is measured for each variant").0))
 }
 
 /// More than this, and settings within a tenth of each other cannot be told apart.

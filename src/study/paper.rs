@@ -15,6 +15,8 @@ pub(super) struct Compared<'a> {
     pub(super) lines: &'a Measured,
     pub(super) spline: &'a Measured,
     pub(super) grid: &'a Measured,
+    /// Whether any line of 5 nm is seen.
+    pub(super) lines_seen: bool,
     /// Whether the image calls for geometry, and for shifts.
     pub(super) geometry: bool,
     pub(super) doppler: bool,
@@ -46,7 +48,7 @@ impl Compared<'_> {
             row(
                 "Doppler effect by lines of 5 nm, resampled at every shift",
                 "over 100 %",
-                over_rgb(self.lines),
+                over_rgb(self.lines).filter(|_| self.lines_seen),
                 format!(
                     "{image}; shading alone takes {:.0} times that of the grid of 84",
                     over_grid(self.lines)

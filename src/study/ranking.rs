@@ -7,6 +7,9 @@ use super::findings::{Halving, Point, Recommendation, Sweep};
 /// that goes on from the picture (CIEDE2000; 1 is about what the eye can just tell).
 pub(super) const LIMITS: [f64; 2] = [0.5, 0.1];
 
+/// An error that falls by less does not fall: the price of half of it would be noise.
+const FALLS: f64 = 1.1;
+
 /// Marks the points than which no other is at least as exact and faster by more than `noise`, the
 /// part by which times of equal work differ.
 pub(super) fn mark_pareto(points: &mut [Point], noise: f64) {
@@ -35,7 +38,7 @@ pub(super) fn halvings(points: &[Point]) -> Vec<Halving> {
         let (error_before, error_after) = (error(pair[0])?, error(pair[1])?);
         let time_ratio = pair[1].frame.median / pair[0].frame.median;
         let error_ratio = error_before / error_after;
-        let falls = error_ratio > 1.0 && error_ratio.is_finite();
+        let falls = error_ratio > FALLS && error_ratio.is_finite();
         (error_before > 0.0 && error_after > 0.0).then(|| Halving {
             family: pair[0].family.clone(),
             from: pair[0].setting.clone(),
@@ -69,7 +72,7 @@ pub(super) fn recommendations(sweep: &Sweep, noise: f64) -> Vec<Recommendation> 
     }
     let current = sweep.points.iter().find(|point| point.current);
     let recommend = |limit: f64| {
-        let found = cheapest(&sweep.points, limit, noise);
+        let found = cheapest(sweep, limit, noise);
         Recommendation {
             knob: sweep.knob.clone(),
             delta_e: limit,
@@ -83,10 +86,17 @@ pub(super) fn recommendations(sweep: &Sweep, noise: f64) -> Vec<Recommendation> 
     LIMITS.map(recommend).to_vec()
 }
 
-fn cheapest(points: &[Point], limit: f64, noise: f64) -> Option<&Point> {
+fn cheapest(sweep: &Sweep, limit: f64, noise: f64) -> Option<&Point> {
+    let points = &sweep.points;
+    // Filters make pictures of their own, each measured against itself.
+    let own = points.iter().find(|point| point.current);
+    let same_picture = |point: &&Point| {
+        sweep.knob != "image.samples" || own.is_none_or(|own| own.family == point.family)
+    };
     let within: Vec<(&Point, f64)> = points
         .iter()
         .filter(|point| point.toml.is_some() || point.current)
+        .filter(same_picture)
         .filter_map(|point| Some((point, point.errors?.delta_e?.p99)))
         .filter(|(_, error)| *error < limit)
         .collect();

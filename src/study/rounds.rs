@@ -17,8 +17,8 @@ pub(super) struct Measured {
     /// By round and phase.
     pub(super) phases: Vec<[f64; 9]>,
     pub(super) memory_mib: Option<f64>,
-    /// The first render's pixels and files; every other has the same.
-    pub(super) first: Run,
+    /// Of its files together.
+    pub(super) file_bytes: u64,
 }
 
 impl Measured {
@@ -32,6 +32,15 @@ impl Measured {
         timing(self.phases.iter().map(|phases| phases[phase]).collect())
     }
 
+    fn new(run: &Run) -> Self {
+        Self {
+            seconds: vec![run.seconds],
+            phases: vec![run.phases],
+            memory_mib: run.memory_mib,
+            file_bytes: run.files.iter().map(|(_, bytes)| bytes.len() as u64).sum(),
+        }
+    }
+
     fn add(&mut self, run: &Run) {
         self.seconds.push(run.seconds);
         self.phases.push(run.phases);
@@ -42,23 +51,22 @@ impl Measured {
     }
 }
 
-/// Renders every variant `rounds` times, round by round.
-pub(super) fn measure(
+/// Renders every variant `rounds` times, round by round. `look` is shown the first render of each,
+/// since every other has the same pixels and files; none is kept, so that memory is that of one.
+pub(super) fn measure<T>(
     variants: &[Variant],
     subject: &Subject,
     rounds: u32,
-) -> Result<Vec<Measured>, StudyError> {
+    mut look: impl FnMut(&Variant, &Run) -> Result<T, StudyError>,
+) -> Result<Vec<(Measured, T)>, StudyError> {
     let mut measured = Vec::new();
     for variant in variants {
-        measured.push(once(variant, subject)?);
+        let run = variant.run(subject)?;
+        measured.push((Measured::new(&run), look(variant, &run)?));
     }
     for round in 1..rounds {
-        for (variant, measured) in variants.iter().zip(&mut measured) {
-            let most = match measured.seconds[0] {
-                seconds if seconds > VERY_LONG => 1,
-                seconds if seconds > LONG => FEW,
-                _ => rounds,
-            };
+        for (variant, (measured, _)) in variants.iter().zip(&mut measured) {
+            let most = most_rounds(rounds, measured.seconds.first().copied());
             if round < most {
                 measured.add(&variant.run(subject)?);
             }
@@ -67,15 +75,13 @@ pub(super) fn measure(
     Ok(measured)
 }
 
-/// Renders a variant once.
-pub(super) fn once(variant: &Variant, subject: &Subject) -> Result<Measured, StudyError> {
-    let first = variant.run(subject)?;
-    Ok(Measured {
-        seconds: vec![first.seconds],
-        phases: vec![first.phases],
-        memory_mib: first.memory_mib,
-        first,
-    })
+/// How many rounds a variant takes part in, by the seconds of its first.
+pub(super) fn most_rounds(rounds: u32, first: Option<f64>) -> u32 {
+    match first {
+        Some(seconds) if seconds > VERY_LONG => 1,
+        Some(seconds) if seconds > LONG => rounds.min(FEW),
+        _ => rounds,
+    }
 }
 
 /// Three numbers of some times; all 0 if there are none.

@@ -87,7 +87,7 @@ pub(super) fn phase(name: &str) -> usize {
 pub(super) struct Run {
     /// Wall clock of the whole image.
     pub(super) seconds: f64,
-    /// By [`PHASES`], summed over threads.
+    /// By [`PHASES`]; those that threads share are divided by their number.
     pub(super) phases: [f64; 9],
     pub(super) memory_mib: Option<f64>,
     pub(super) film: Film,
@@ -135,6 +135,7 @@ impl Variant {
         let ended = Instant::now();
         let memory_mib = peak_mib().filter(|_| counts);
         let seconds = profile.seconds();
+        let threads = rayon::current_num_threads() as f64;
         // Once more, for its time alone: it is part of making the files.
         let again = Instant::now();
         let developed = develop(&film, &development(&self.shot, subject.stops));
@@ -145,12 +146,12 @@ impl Variant {
             seconds: (ended - begun).as_secs_f64(),
             phases: [
                 seconds.prepare,
-                seconds.aim,
-                seconds.boost,
-                seconds.traverse,
-                seconds.shadow,
-                seconds.surfaces,
-                seconds.shade,
+                seconds.aim / threads,
+                seconds.boost / threads,
+                seconds.traverse / threads,
+                seconds.shadow / threads,
+                seconds.surfaces / threads,
+                seconds.shade / threads,
                 developing,
                 writing.max(0.0),
             ],

@@ -3,10 +3,10 @@
 use super::errors::{color_differences, errors};
 use super::findings::{Errors, Point, Sweep};
 use super::knobs::Knob;
-use super::rounds::{Measured, measure, once};
-use super::subject::{Subject, Variant, phase};
+use super::rounds::{Measured, measure};
+use super::subject::{Run, Subject, Variant, phase};
 use super::{StudyError, ranking};
-use crate::film::{Developed, Film, develop};
+use crate::film::{Channels, Developed, Film, develop};
 use crate::render::development;
 use crate::spectrum::color_space;
 
@@ -17,36 +17,33 @@ pub(super) fn sweep(
     rounds: u32,
     noise: f64,
 ) -> Result<Sweep, StudyError> {
-    let touched = phase(knob.phase);
-    let references = knob
-        .references
-        .iter()
-        .map(|variant| once(variant, subject))
-        .collect::<Result<Vec<_>, _>>()?;
-    let measured = measure(&knob.variants, subject, rounds)?;
-    let mut points = Vec::new();
-    for (variant, own) in knob.variants.iter().zip(&measured) {
+    let references = measure(&knob.references, subject, 1, |_, run| Ok(run.film.clone()))?;
+    let look = |variant: &Variant, run: &Run| {
+        if knob.files {
+            return file_errors(variant, run, subject);
+        }
         let number = knob.reference_of(variant);
-        let reference = knob.references.get(number).zip(references.get(number));
-        let errors = if knob.files {
-            file_errors(variant, own, subject)?
-        } else {
-            match reference {
-                Some((exact, reference)) => {
-                    compared(knob, [variant, exact], [own, reference], subject)?
-                }
-                None => Errors::default(),
+        match knob.references.get(number).zip(references.get(number)) {
+            Some((exact, (_, film))) => {
+                compared(knob, [variant, exact], [&run.film, film], subject)
             }
-        };
-        points.push(point(knob, variant, own, touched, Some(errors)));
-    }
+            None => Ok(Errors::default()),
+        }
+    };
+    let measured = measure(&knob.variants, subject, rounds, look)?;
+    let mut points: Vec<Point> = knob
+        .variants
+        .iter()
+        .zip(&measured)
+        .map(|(variant, (own, errors))| point(knob, variant, own, Some(*errors)))
+        .collect();
     ranking::mark_pareto(&mut points, noise);
     let halving = ranking::halvings(&points);
-    for (variant, own) in knob.references.iter().zip(&references) {
+    for (variant, (own, _)) in knob.references.iter().zip(&references) {
         if points.iter().any(|point| point.setting == variant.setting) {
             continue;
         }
-        points.push(point(knob, variant, own, touched, None));
+        points.push(point(knob, variant, own, None));
     }
     Ok(Sweep {
         knob: knob.key.to_owned(),
@@ -59,23 +56,16 @@ pub(super) fn sweep(
     })
 }
 
-fn point(
-    knob: &Knob,
-    variant: &Variant,
-    measured: &Measured,
-    touched: usize,
-    errors: Option<Errors>,
-) -> Point {
-    let bytes = measured.first.files.iter().map(|(_, b)| b.len() as u64);
+fn point(knob: &Knob, variant: &Variant, measured: &Measured, errors: Option<Errors>) -> Point {
     Point {
         setting: variant.setting.clone(),
         family: variant.family.clone(),
         toml: variant.toml.clone(),
         current: variant.current,
         frame: measured.frame(),
-        phase: measured.phase(touched),
+        phase: measured.phase(phase(knob.phase)),
         memory_mib: measured.memory_mib,
-        file_bytes: knob.files.then(|| bytes.sum()),
+        file_bytes: knob.files.then_some(measured.file_bytes),
         errors,
         pareto: false,
     }
@@ -85,11 +75,11 @@ fn point(
 fn compared(
     knob: &Knob,
     variants: [&Variant; 2],
-    measured: [&Measured; 2],
+    films: [&Film; 2],
     subject: &Subject,
 ) -> Result<Errors, StudyError> {
     let [variant, exact] = variants;
-    let [film, reference] = measured.map(|measured| &measured.first.film);
+    let [film, reference] = films;
     let mut errors = errors(&variant.shot, film, reference, subject.stops)?;
     if let Some(displacement) = knob.displacement {
         let size = [variant.options.width, variant.options.height];
@@ -104,14 +94,10 @@ fn compared(
 }
 
 /// What is lost in a file: the picture read from it against the film.
-fn file_errors(
-    variant: &Variant,
-    measured: &Measured,
-    subject: &Subject,
-) -> Result<Errors, StudyError> {
-    let film = &measured.first.film;
+fn file_errors(variant: &Variant, run: &Run, subject: &Subject) -> Result<Errors, StudyError> {
+    let film = &run.film;
     let exact = develop(film, &development(&variant.shot, subject.stops));
-    let Some((extension, bytes)) = measured.first.files.first() else {
+    let Some((extension, bytes)) = run.files.first() else {
         return Ok(Errors::default());
     };
     let read = image::load_from_memory(bytes)?;
@@ -132,7 +118,7 @@ fn file_errors(
     let light = crate::film::compare::relative_rmse(&as_film(&read).xyz, &as_film(&exact).xyz)?;
     Ok(Errors {
         radiance: light,
-        delta_e: Some(color_differences(&read, &exact)),
+        delta_e: (film.channels == Channels::Xyz).then(|| color_differences(&read, &exact)),
         ..Errors::default()
     })
 }

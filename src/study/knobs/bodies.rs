@@ -13,6 +13,8 @@ use std::sync::Arc;
 /// Subdivisions of an icosahedron: 80 to 20480 triangles.
 const LEVELS: [u32; 5] = [1, 2, 3, 4, 5];
 const FINEST_LEVEL: u32 = 7;
+/// Of all spheres of a shot's meshes together, some 200 MB of them.
+const MOST_TRIANGLES: usize = 2_000_000;
 
 /// The knob `accuracy.tracing`.
 pub(super) fn tracing(start: &Start<'_>) -> Knob {
@@ -56,7 +58,7 @@ pub(super) fn tessellation(start: &Start<'_>) -> Knob {
         "traverse",
         "triangles of which each sphere among the shot's meshes is made",
     );
-    knob.reference = "spheres of 327680 triangles";
+    knob.reference = "the finest spheres, of 327680 triangles where there are few";
     knob.displacement = Some(displacement_of_spheres);
     let bodies = |level: u32| {
         let scene = &start.bodies.scene;
@@ -76,7 +78,11 @@ pub(super) fn tessellation(start: &Start<'_>) -> Knob {
             ..start.variant(format!("{triangles} triangles a sphere"), None)
         })
     };
-    let Some(finest) = variant(FINEST_LEVEL) else {
+    let meshes = &start.bodies.scene.geometry.meshes;
+    let count: usize = meshes.iter().map(|mesh| spheres::spheres(mesh).len()).sum();
+    let fits = |level: &u32| count * (20 << (2 * level)) <= MOST_TRIANGLES;
+    let finest = (1..=FINEST_LEVEL).rev().find(fits).unwrap_or(1);
+    let Some(finest) = variant(finest) else {
         knob.note = Some(
             "no mesh of the shot is a sphere: what is flat is exact with any number of triangles, \
              and of other shapes nobody knows what they stand for"
@@ -85,7 +91,11 @@ pub(super) fn tessellation(start: &Start<'_>) -> Knob {
         return knob;
     };
     knob.references = vec![finest];
-    knob.variants = LEVELS.into_iter().filter_map(variant).collect();
+    knob.variants = LEVELS
+        .into_iter()
+        .filter(fits)
+        .filter_map(variant)
+        .collect();
     knob.variants.push(Variant {
         family: "as in the file".to_owned(),
         ..start.as_it_is()

@@ -17,12 +17,15 @@ pub(super) fn bounces(start: &Start<'_>, called: &Called) -> Knob {
         "surfaces",
         "how many mirrors and faces of glass light is followed through",
     );
-    knob.reference = "64 of them, nothing cut off";
+    knob.reference = "64 of them, the same cut-off";
     let variant = |bounces: u32, cutoff: f64| {
         let mut shot = start.shot.clone();
         shot.effects.bounces = bounces;
         for splice in &mut shot.splice {
-            splice.effects.bounces = splice.effects.bounces.map(|own| own.min(bounces));
+            splice.effects.bounces = splice.effects.bounces.map(|own| match bounces {
+                ALL_BOUNCES => ALL_BOUNCES,
+                bounces => own.min(bounces),
+            });
         }
         shot.accuracy.cutoff = cutoff;
         Variant {
@@ -45,7 +48,7 @@ pub(super) fn bounces(start: &Start<'_>, called: &Called) -> Knob {
         counts.sort_unstable();
     }
     knob.variants = counts.into_iter().map(|n| variant(n, cutoff)).collect();
-    knob.references = vec![variant(ALL_BOUNCES, 0.0)];
+    knob.references = vec![variant(ALL_BOUNCES, cutoff)];
     knob
 }
 

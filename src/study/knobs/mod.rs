@@ -12,7 +12,10 @@ use super::subject::Variant;
 use crate::plan::Called;
 use crate::render::View;
 
-pub(super) use spectra::without_shift;
+pub(super) use spectra::{lines_seen, without_shift};
+
+/// Of views of a reference and of a setting, and their image's size.
+type Displaced = fn(&View<'_>, &View<'_>, [u32; 2]) -> Displacement;
 
 /// A knob, before anything is measured.
 pub(super) struct Knob {
@@ -24,9 +27,8 @@ pub(super) struct Knob {
     pub(super) variants: Vec<Variant>,
     /// By family, or one for all.
     pub(super) references: Vec<Variant>,
-    /// How far surfaces move, where they do: views of the reference and a setting, and the
-    /// image's size.
-    pub(super) displacement: Option<fn(&View<'_>, &View<'_>, [u32; 2]) -> Displacement>,
+    /// How far surfaces move, where they do.
+    pub(super) displacement: Option<Displaced>,
     /// Whether it is the files that differ.
     pub(super) files: bool,
 }

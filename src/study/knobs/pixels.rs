@@ -16,9 +16,9 @@ pub(super) fn samples(start: &Start<'_>) -> Knob {
         "traverse",
         "samples a pixel, with either filter",
     );
-    knob.reference = "256 samples with the same filter";
+    knob.reference = "at least 256 samples with the same filter, and four times the shot's";
     knob.note = Some(
-        "the reference has noise of its own, a part in √256 of what a single sample has".to_owned(),
+        "the reference has an error of its own; each filter is compared with itself".to_owned(),
     );
     let (own, filter) = (start.options.samples, start.shot.image.filter);
     let variant = |count: u32, held: Filter, name: &str| {
@@ -43,13 +43,17 @@ pub(super) fn samples(start: &Start<'_>) -> Knob {
         (Filter::Box, "box"),
     ] {
         let mut counts = SAMPLES.to_vec();
-        if held == filter && !counts.contains(&own) && own < REFERENCE_SAMPLES {
+        if held == filter && !counts.contains(&own) {
             counts.push(own);
             counts.sort_unstable();
         }
         let variants = counts.into_iter().map(|count| variant(count, held, name));
         knob.variants.extend(variants);
-        knob.references.push(variant(REFERENCE_SAMPLES, held, name));
+        knob.references.push(variant(
+            REFERENCE_SAMPLES.max(own.saturating_mul(4)),
+            held,
+            name,
+        ));
     }
     knob
 }

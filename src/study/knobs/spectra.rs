@@ -4,6 +4,7 @@ use super::Knob;
 use crate::plan::{self, Called};
 use crate::render::spliced;
 use crate::shot::{Accuracy, Shot, Spectra, Switch};
+use crate::spectrum::LineAxis;
 use crate::study::Start;
 use crate::study::subject::Variant;
 
@@ -32,7 +33,11 @@ pub(super) fn spectra(start: &Start<'_>, called: &Called) -> Knob {
     };
     let own = start.shot.accuracy;
     let mut variants = vec![without_shift(start, called)];
-    variants.extend(LINES_NM.map(|nm| {
+    let seen = |nm: &f64| lines_seen(start.shot, *nm);
+    if !LINES_NM.iter().all(seen) {
+        knob.note = Some("lines that the sensor's window leaves out are not compared".to_owned());
+    }
+    variants.extend(LINES_NM.into_iter().filter(seen).map(|nm| {
         let accuracy = Accuracy {
             spectra: Spectra::Lines,
             line_spacing: nm,
@@ -91,6 +96,14 @@ pub(in crate::study) fn without_shift(start: &Start<'_>, called: &Called) -> Var
         shot,
         ..start.variant(setting.to_owned(), toml)
     }
+}
+
+/// Whether the sensor's window holds spectral lines at this distance.
+pub(in crate::study) fn lines_seen(shot: &Shot, spacing_nm: f64) -> bool {
+    LineAxis::new(spacing_nm)
+        .within(shot.sensor.window)
+        .next()
+        .is_some()
 }
 
 fn splices_shift(start: &Start<'_>) -> bool {

@@ -122,7 +122,7 @@ impl<'a> Easel<'a> {
         let (unit, name) = unit_of_time(longest);
         let label = match clock {
             Clock::Frame => "time of the whole image".to_owned(),
-            Clock::Phase => format!("time of the phase “{}”, summed over threads", sweep.phase),
+            Clock::Phase => format!("time of the phase “{}”", sweep.phase),
         };
         Some(Self {
             sweep,

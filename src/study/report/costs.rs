@@ -21,7 +21,7 @@ pub(super) fn phases(study: &Study) -> Markup {
     html! {
         section #phases {
             h2 { "Where the time goes" }
-            p { "The shot as it is. Times are summed over threads." }
+            p { "The shot as it is. Times of phases that threads share are divided by their number." }
             div.scroll { table {
                 thead { tr {
                     th { "Phase" } th.n { "Time" } th.n { "Share" } th.wide { } th { "What happens in it" }

@@ -37,7 +37,9 @@ pub(super) fn opening(study: &Study) -> Markup {
                 @if let Some(processor) = &machine.processor { (processor) ", " }
                 (counted(machine.threads, "thread")) ", restframe " (machine.version)
                 ", each setting rendered "
-                @if machine.repeats == 1 { "once" } @else { (machine.repeats) " times" }
+                @if machine.repeats == 1 { "once" } @else {
+                    (machine.repeats) " times, or fewer where that takes long"
+                }
                 "."
             }
             (noise(study))
@@ -50,7 +52,7 @@ fn noise(study: &Study) -> Markup {
     html! {
         p.noise.warning[noise.too_noisy] {
             "Equal work differed in time by " (percent(noise.spread))
-            " (median over all settings), and a second copy of the shot as it is took "
+            " (median of some images), and a second copy of the shot as it is took "
             (times(noise.duplicate)) " the time of the first. "
             @if noise.too_noisy {
                 strong { "The machine was too busy to tell settings apart that are within 10 % of \
@@ -98,12 +100,13 @@ pub(super) fn legend() -> Markup {
                 dd { "How far a surface is seen from where it should be, pixels; “mistaken” are "
                      "pixels that see another surface." }
                 dt { "Pareto front" }
-                dd { "Settings that no other beats: none is both faster and at least as exact. "
+                dd { "Settings that no other beats: none is at least as exact and faster by more "
+                     "than times of equal work differ. "
                      "Ringed in the charts; the dashed staircase joins them. All others waste "
                      "time or exactness." }
                 dt { "Times" }
                 dd { "Of the whole image, prepared, traced, shaded, developed, encoded and "
-                     "written, by the clock on the wall; those of phases are summed over threads. "
+                     "written, by the clock on the wall; those of phases that threads share are divided by their number. "
                      "The median of all renders, with the shortest and the longest." }
             }
         }
