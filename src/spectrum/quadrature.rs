@@ -12,7 +12,7 @@
 use super::Spectrum;
 use super::cie::{EFFICACY, RANGE_NM, xyz_bar};
 
-/// Largest error of a channel, over the greatest of the three, unless [`MOST_HALVINGS`] is met.
+/// Largest error of a channel, over the greatest of the three, unless 16384 halvings are not enough.
 pub const TOLERANCE: f64 = 1e-10;
 
 /// Most halvings in one integral: 20 find a bend at an unknown place to [`TOLERANCE`].
