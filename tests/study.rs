@@ -212,7 +212,7 @@ fn what_an_image_does_not_call_for_is_told_and_a_static_one_has_rgb() {
         let found = study.effects.iter().find(|cost| cost.effect == effect);
         found.expect("every effect is listed").called
     };
-    for effect in ["geometry", "doppler", "beaming", "thermal", "refraction"] {
+    for effect in ["geometry", "doppler", "beaming", "thermal"] {
         assert!(!called(effect), "{effect}");
     }
     assert!(called("shadows") && called("mirror") && called("second worldline"));
