@@ -102,7 +102,8 @@ pub fn probe(
 ) -> Probe {
     let shader = view.shader();
     let mut light = Radiance::new(shader.wavelengths_nm().len());
-    let (mut chain, mut cut, mut channels, mut direction) = (Vec::new(), 0.0, [0.0; 3], None);
+    let (mut chain, mut cut, mut direction) = (Vec::new(), 0.0, None);
+    let (mut channels, mut xyz) = ([0.0; 3], [0.0; 3]);
     if let Some((trees, towards)) = look(shot, pixel, view, scene) {
         let root = trees.roots[0];
         chain = self::chain(view, scene, trees.nodes_of(root), towards);
@@ -117,14 +118,15 @@ pub fn probe(
             shader.radiance(&trees, root)
         };
         // As the picture has them, however spectra are held.
-        channels = shader.xyz(&trees, root, &mut ShadeScratch::default());
+        let mut scratch = ShadeScratch::default();
+        channels = shader.xyz(&trees, root, &mut scratch);
+        xyz = match render::channels(shot) {
+            Channels::Xyz => channels,
+            Channels::Bands => view.eye(shot).xyz(&trees, root, &mut scratch),
+        };
         direction = Some(towards);
     }
     let radiance = light.total();
-    let xyz = match render::channels(shot) {
-        Channels::Xyz => channels,
-        Channels::Bands => shader.eye_of(&radiance),
-    };
     let gain = exposure.exp2() / 100.0;
     let rgb = development(shot, exposure).rgb_from_xyz.map(|row| {
         let terms = row.iter().zip(channels).map(|(m, v)| m * v);

@@ -45,6 +45,8 @@ pub struct View<'a> {
     shader: Shader,
     bounces: u32,
     cutoff: f64,
+    /// Largest |ln D| between a surface and the camera, and between a lamp and a surface.
+    reaches: [f64; 2],
 }
 
 impl<'a> View<'a> {
@@ -82,7 +84,9 @@ impl<'a> View<'a> {
                 .fold(0.0, f64::max),
         };
         let shader = Shader::new(scene, &settings);
+        let reaches = [settings.reach, settings.lamp_reach];
         Ok(Self {
+            reaches,
             scene,
             stage,
             called,
@@ -96,6 +100,23 @@ impl<'a> View<'a> {
     /// The shader of this image.
     pub fn shader(&self) -> &Shader {
         &self.shader
+    }
+
+    /// The shader of this image as the CIE's observer sees it, whatever the shot's sensor makes of
+    /// its window.
+    pub fn eye(&self, shot: &Shot) -> Shader {
+        let [reach, lamp_reach] = self.reaches;
+        let settings = Settings {
+            called: &self.called,
+            accuracy: &shot.accuracy,
+            sensor: &Sensor {
+                color: SensorColor::Cie1931,
+                ..shot.sensor.clone()
+            },
+            reach,
+            lamp_reach,
+        };
+        Shader::new(self.scene, &settings)
     }
 
     /// A shader of this image over another band (nm), for curves rather than pictures: spectra are

@@ -106,11 +106,6 @@ impl Shader {
     pub fn xyz_of(&self, radiance: &[f64]) -> [f64; 3] {
         self.sensor.xyz(radiance)
     }
-
-    /// XYZ (cd/m²) of spectral radiance at [`Shader::wavelengths_nm`], whatever the sensor.
-    pub fn eye_of(&self, radiance: &[f64]) -> [f64; 3] {
-        Sensor::cie1931(self.sensor.axis()).xyz(radiance)
-    }
 }
 
 /// The integrals that a sensor's channels stand for.
