@@ -8,7 +8,7 @@
 //!             │                                     │
 //!             └────────── render, probe ────────────┘
 //!                               │
-//!                        queue ──> study                     callers
+//!                        queue ──> sequence, study           callers
 //!                               │
 //!                           cli, main
 //! ```
@@ -27,6 +27,7 @@
 //! - [`film`]: sums of XYZ, or of bands, to pictures. Every number in a file is finite.
 //! - [`render`] and [`probe`]: all of it on one page, for an image and for a pixel.
 //! - [`queue`]: the images of a night, each whole or absent.
+//! - [`sequence`]: finished images verified, and assembled to sheets, animations, videos and a page.
 //! - [`study`]: accuracy against time, by rendering the same image at many settings.
 //! - [`cli`]: arguments, messages, exit codes.
 //!
@@ -64,6 +65,7 @@ pub mod queue;
 pub mod relativity;
 pub mod render;
 pub mod scene;
+pub mod sequence;
 pub mod shade;
 pub mod shot;
 pub mod spectrum;

@@ -19,7 +19,7 @@ const ROOMS: &[&[&str]] = &[
     &["render"],
     &["probe"],
     &["queue"],
-    &["study"],
+    &["sequence", "study"],
     &["cli"],
     &["main"],
 ];

@@ -3,10 +3,13 @@
 //! Results go to standard output, progress and diagnostics to standard error. Exit status: 0
 //! done, 1 something failed while rendering, 2 a mistake in the shot or the call.
 
+mod assemble;
 mod check;
+mod plan;
 mod probe;
 mod render;
 mod study;
+mod verify;
 
 use crate::queue::{FrameList, Mode};
 use crate::shot::{self, Mistakes};
@@ -36,6 +39,12 @@ enum Command {
         #[arg(long)]
         json: bool,
     },
+    /// Tells what each frame calls for and why, which frames share a trace, and what they will take
+    Plan(PlanArguments),
+    /// Tells which frames are missing, stale, broken or suspicious
+    Verify(FinishedArguments),
+    /// Makes sheets, animations, videos and the page of finished frames
+    Assemble(FinishedArguments),
     /// Tells what the centre of one pixel sees: event, Doppler factor, spectrum, colour
     Probe(ProbeArguments),
     /// Measures what accuracy costs in time: a report of one image at many settings of every knob
@@ -86,6 +95,47 @@ impl From<ProgressMode> for Mode {
             ProgressMode::None => Self::None,
         }
     }
+}
+
+#[derive(Debug, Args)]
+struct PlanArguments {
+    /// Shot file
+    shot: PathBuf,
+    /// Folder that images go to: what is finished there is told, and its seconds are what others are judged by
+    #[arg(long, value_name = "DIR", default_value = "renders")]
+    out: PathBuf,
+    /// Frames, such as 1-10,20; default all
+    #[arg(long, value_name = "LIST", allow_hyphen_values = true)]
+    frames: Option<FrameList>,
+    /// Factor on the size of the images
+    #[arg(long, value_name = "FACTOR", default_value = "1", value_parser = scale, allow_negative_numbers = true)]
+    scale: f64,
+    /// Samples a pixel, in place of the shot's
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=65536), allow_negative_numbers = true)]
+    samples: Option<u32>,
+    /// Answer as JSON
+    #[arg(long)]
+    json: bool,
+}
+
+/// What to do with finished frames.
+#[derive(Debug, Args)]
+struct FinishedArguments {
+    /// Shot files
+    #[arg(required = true, value_name = "SHOT")]
+    shots: Vec<PathBuf>,
+    /// Folder that images were rendered to
+    #[arg(long, value_name = "DIR", default_value = "renders")]
+    out: PathBuf,
+    /// Factor on the size that they were rendered with
+    #[arg(long, value_name = "FACTOR", default_value = "1", value_parser = scale, allow_negative_numbers = true)]
+    scale: f64,
+    /// Samples a pixel that they were rendered with, in place of the shot's
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=65536), allow_negative_numbers = true)]
+    samples: Option<u32>,
+    /// Answer as JSON
+    #[arg(long)]
+    json: bool,
 }
 
 #[derive(Debug, Args)]
@@ -151,6 +201,9 @@ pub fn run() -> ExitCode {
     let done = match Arguments::parse().command {
         Command::Render(arguments) => render::run(&arguments),
         Command::Check { shots, json } => check::run(&shots, json),
+        Command::Plan(arguments) => plan::run(&arguments),
+        Command::Verify(arguments) => verify::run(&arguments),
+        Command::Assemble(arguments) => assemble::run(&arguments),
         Command::Probe(arguments) => probe::run(&arguments),
         Command::Study(arguments) => study::run(&arguments),
         Command::Schema => schema(),

@@ -15,6 +15,7 @@ pub mod exr;
 mod metadata;
 pub mod plot;
 pub mod png;
+pub mod raster;
 
 pub use develop::{Developed, Development, develop};
 pub use expose::{auto_exposure, luminance_percentile};

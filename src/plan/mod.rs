@@ -4,7 +4,11 @@
 //! motions they follow from.
 
 mod effects;
+mod files;
+mod key;
 mod motion;
 
 pub use effects::{Called, Reason, called};
+pub use files::Digests;
+pub use key::{EPOCH, FrameKey, Keys, Picture};
 pub use motion::{MotionError, celerity, worldline};

@@ -5,14 +5,20 @@
 //! error ([`Progress`]). Standard output is never written to.
 
 mod frames;
+mod manifest;
+mod names;
 mod picture;
 mod progress;
+mod reel;
 mod shifts;
 mod shots;
 mod write;
 
 pub use frames::{FrameList, FrameListError, Resolved};
+pub use manifest::{FileRecord, Record, Seconds, read_records};
+pub use names::Names;
 pub use picture::{Pictures, pictures};
 pub use progress::{Mode, Progress};
+pub use reel::{Reel, ReelError, Status};
 pub use shots::{Exposing, Prepared, RenderError, Request, options, render_shot};
 pub use write::write_atomically;

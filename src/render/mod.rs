@@ -15,9 +15,11 @@ use std::time::Instant;
 mod meter;
 mod paint;
 mod profile;
+mod together;
 
 pub use meter::{Metered, metered_exposure, motion_mistake};
 pub use profile::{Profile, Seconds};
+pub use together::{Member, Together, TogetherError, Watch, render_together};
 
 use paint::{BAND, Painter, Row, empty_film, split_bands};
 use profile::Lap;

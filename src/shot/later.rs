@@ -19,8 +19,6 @@ use When::{Always, Word};
 /// Pattern of the key path (`*` a name, `[]` an index), when it is refused, what to do.
 #[rustfmt::skip] // a line each
 const LATER: &[(&str, When, &str)] = &[
-    ("inset", Always, "leave out [[inset]]"),
-    ("sequence", Always, "leave out [sequence]"),
     ("model[].node", Always, "give the nodes model files of their own"),
     ("model[].clips", Always, "leave it out: models stand as their file's nodes do"),
     ("model[].motion", Always, "leave it out: models stand as their file's nodes do"),

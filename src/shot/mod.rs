@@ -22,6 +22,7 @@ mod load;
 mod mistake;
 mod names;
 mod schema;
+mod sequence;
 mod settings;
 mod sky;
 mod track;
@@ -44,6 +45,7 @@ pub use light::{Light, LightKind};
 pub use load::{MAX_BYTES, load, parse};
 pub use mistake::{Mistake, Mistakes, Places};
 pub use schema::schema;
+pub use sequence::{Corner, Inset, InsetPixel, PixelName, Sequence, Sheet, Video};
 pub use settings::{
     AutoExposure, Beaming, Clock, Depth, Effects, Exposure, Filter, Format, Image, LARGEST_SIDE,
     Layer, Output, Sensor, SensorColor, Splice, SpliceEffects, Switch, Tone,
@@ -105,6 +107,13 @@ pub struct Shot {
     #[serde(default)]
     #[schemars(extend("default" = {}))]
     pub output: Output,
+    /// Plots of single pixels' curves, drawn into the PNG.
+    #[serde(default)]
+    pub inset: Vec<Inset>,
+    /// What is assembled from the finished frames.
+    #[serde(default)]
+    #[schemars(extend("default" = {}))]
+    pub sequence: Sequence,
     /// The shot file's path, as it was given.
     #[serde(skip)]
     #[schemars(skip)]

@@ -1,0 +1,8 @@
+//! `restframe assemble`.
+
+use super::{Failed, FinishedArguments, failed};
+
+/// Runs the command.
+pub(super) fn run(arguments: &FinishedArguments) -> Result<(), Failed> {
+    Err(failed(&format!("{arguments:?}")))
+}

@@ -1,0 +1,57 @@
+//! Names of a shot's files: frames, manifests, and what is assembled.
+
+use crate::shot::Shot;
+
+/// The names of one shot's files, all in one folder.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Names {
+    /// What all names begin with: the shot file's stem.
+    pub stem: String,
+    digits: usize,
+}
+
+impl Names {
+    /// The names of a shot's files. Frame numbers have at least four digits, and as many in all.
+    pub fn new(shot: &Shot) -> Self {
+        let stem = shot.path.file_stem().unwrap_or_default();
+        Self {
+            stem: stem.to_string_lossy().into_owned(),
+            digits: shot.shot.frames.to_string().len().max(4),
+        }
+    }
+
+    /// STEM.0012.png
+    pub fn frame(&self, frame: u32, extension: &str) -> String {
+        let digits = self.digits;
+        format!("{}.{frame:0digits$}.{extension}", self.stem)
+    }
+
+    /// The frame's number and extension, if a file name is one of a frame, of any shot length.
+    pub fn frame_of<'a>(&self, name: &'a str) -> Option<(u32, &'a str)> {
+        let rest = name.strip_prefix(&self.stem)?.strip_prefix('.')?;
+        let (number, extension) = rest.split_once('.')?;
+        let whole = number.len() >= 4 && number.bytes().all(|b| b.is_ascii_digit());
+        let known = matches!(extension, "png" | "exr");
+        (whole && known).then_some((number.parse().ok()?, extension))
+    }
+
+    /// STEM.manifest.jsonl, or STEM.manifest.K-N.jsonl of a shard.
+    pub fn manifest(&self, shard: Option<[u32; 2]>) -> String {
+        match shard {
+            None => format!("{}.manifest.jsonl", self.stem),
+            Some([k, n]) => format!("{}.manifest.{k}-{n}.jsonl", self.stem),
+        }
+    }
+
+    /// Whether a file name is that of a manifest of this shot.
+    pub fn is_manifest(&self, name: &str) -> bool {
+        let rest = name.strip_prefix(&self.stem);
+        rest.and_then(|rest| rest.strip_prefix(".manifest."))
+            .is_some_and(|rest| rest == "jsonl" || rest.ends_with(".jsonl"))
+    }
+
+    /// STEM.SUFFIX, of what is assembled: "sheet.png", "gif", "apng", "mp4", "av1.mp4".
+    pub fn assembled(&self, suffix: &str) -> String {
+        format!("{}.{suffix}", self.stem)
+    }
+}

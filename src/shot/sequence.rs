@@ -1,0 +1,125 @@
+//! `[sequence]` and `[[inset]]`: what is made of the finished frames, and what is drawn into them.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// `[sequence]`: what is assembled from the finished frames. Changing it renders no frame anew.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct Sequence {
+    /// A contact sheet of all frames with captions, STEM.sheet.png. Default: none.
+    pub sheet: Option<Sheet>,
+    /// An animation of 256 colors, STEM.gif. Default: false.
+    pub gif: bool,
+    /// An animation of all colors, STEM.apng. Default: false.
+    pub apng: bool,
+    /// A video by ffmpeg. Default: none.
+    pub video: Option<Video>,
+    /// Whether the parts of a spliced image stand side by side, not one above the other. Default: false.
+    pub splices: bool,
+    /// A page about the frames, index.html. Default: true.
+    pub page: bool,
+}
+
+impl Default for Sequence {
+    fn default() -> Self {
+        Self {
+            sheet: None,
+            gif: false,
+            apng: false,
+            video: None,
+            splices: false,
+            page: true,
+        }
+    }
+}
+
+/// A contact sheet.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct Sheet {
+    /// Frames in a row, from 1 to 100. Default: 6.
+    #[schemars(range(min = 1, max = 100))]
+    pub columns: u32,
+    /// Width of a frame on the sheet, pixels, from 16 to 4096. Default: 320.
+    #[schemars(range(min = 16, max = 4096))]
+    pub width: u32,
+}
+
+impl Default for Sheet {
+    fn default() -> Self {
+        Self {
+            columns: 6,
+            width: 320,
+        }
+    }
+}
+
+/// A kind of video.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum Video {
+    /// H.264 in STEM.mp4: plays everywhere.
+    Mp4,
+    /// AV1 in STEM.av1.mp4: half the size.
+    Av1,
+}
+
+/// `[[inset]]`: a plot of one pixel's curves, drawn into the PNG.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Inset {
+    /// "center", or [x, y] in an image of the full size. Default: "center".
+    #[serde(default)]
+    pub pixel: InsetPixel,
+    /// The corner that it stands in. Default: "lower-left".
+    #[serde(default)]
+    pub place: Corner,
+    /// Its height as a share of the image's, from 0.1 to 1. Default: 0.4.
+    #[serde(default = "usual_size")]
+    #[schemars(range(min = 0.1, max = 1.0))]
+    pub size: f64,
+}
+
+fn usual_size() -> f64 {
+    0.4
+}
+
+/// The pixel of an inset.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(untagged)]
+pub enum InsetPixel {
+    /// Column and row; [0, 0] is the upper left one.
+    At([u32; 2]),
+    /// By a word.
+    Named(PixelName),
+}
+
+impl Default for InsetPixel {
+    fn default() -> Self {
+        Self::Named(PixelName::Center)
+    }
+}
+
+/// A pixel by name.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum PixelName {
+    /// The one in the middle, right and below of it where sides are even.
+    Center,
+}
+
+/// A corner of the image.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Corner {
+    /// Upper left.
+    UpperLeft,
+    /// Upper right.
+    UpperRight,
+    /// Lower left.
+    #[default]
+    LowerLeft,
+    /// Lower right.
+    LowerRight,
+}
