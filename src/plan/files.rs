@@ -1,36 +1,187 @@
 //! Hashes of the files that a shot reads: models with all that they name, spectra, skies, stars.
 
-use crate::shot::{Mistakes, Shot};
-use std::path::Path;
+use crate::shot::{FileError, MODEL_BYTES, Mistakes, ModelFiles, Opened, Shot};
+use blake3::{Hash, Hasher};
+use indexmap::{IndexMap, IndexSet};
+use serde::Deserialize;
+use std::fs::File;
+use std::io::{self, BufRead, Read};
+use std::path::{Path, PathBuf};
 
-/// BLAKE3 of every file that a shot reads, by the path that it is named by.
+/// BLAKE3 of every file that a shot reads, each read once and none kept. What a broken file lacks
+/// to be read is said by whoever reads it.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
-pub struct Digests(Vec<(String, String)>);
+pub struct Digests(IndexMap<PathBuf, Digest>);
+
+/// A file that the shot names.
+#[derive(Debug, Clone, PartialEq, Eq)]
+struct Digest {
+    hash: String,
+    /// Of the files that a model names: paths from the shot's folder, and hashes.
+    parts: Vec<(String, String)>,
+}
 
 impl Digests {
     /// Reads the files of a shot and hashes them; no mesh is built.
     ///
     /// # Errors
-    /// A file that cannot be read, at the key that names it.
+    /// Files that cannot be read, each at the key that names it.
     pub fn read(shot: &Shot) -> Result<Self, Mistakes> {
-        let folder = shot.path.parent().unwrap_or(Path::new(""));
-        let mut digests = Vec::new();
-        for (i, model) in shot.model.iter().enumerate() {
-            let bytes = std::fs::read(folder.join(&model.file)).map_err(|error| {
-                let key = format!("model[{i}].file");
-                let mistake = shot.places.mistake(&key, error.to_string(), None);
-                Mistakes::new(&shot.places, vec![mistake])
-            })?;
-            let digest = blake3::hash(&bytes).to_hex().to_string();
-            digests.push((model.file.display().to_string(), digest));
+        let mut digests = IndexMap::new();
+        let mut mistakes = Vec::new();
+        let models = shot.model.iter().enumerate();
+        let models = models.map(|(i, model)| (format!("model[{i}].file"), model.file.as_path()));
+        let models: Vec<_> = models.collect();
+        let is_model = |number: usize| number < models.len();
+        let files = models.iter().cloned().chain(shot.data_files());
+        for (number, (key, file)) in files.enumerate() {
+            if digests.contains_key(file) {
+                continue;
+            }
+            let path = shot.beside(file);
+            let digest = if is_model(number) {
+                model(shot, file, &path).map_err(|error| error.to_string())
+            } else {
+                data(&path).map_err(|error| error.to_string())
+            };
+            match digest {
+                Ok(digest) => drop(digests.insert(file.to_owned(), digest)),
+                Err(message) => mistakes.push(shot.places.mistake(&key, message, None)),
+            }
         }
-        Ok(Self(digests))
+        if mistakes.is_empty() {
+            Ok(Self(digests))
+        } else {
+            Err(Mistakes::new(&shot.places, mistakes))
+        }
     }
 
-    /// Paths and hexadecimal hashes.
-    pub fn iter(&self) -> impl Iterator<Item = (&str, &str)> {
-        self.0
-            .iter()
-            .map(|(path, hash)| (path.as_str(), hash.as_str()))
+    /// Paths, as the shot has them or from its folder, and hexadecimal hashes.
+    pub fn iter(&self) -> impl Iterator<Item = (String, &str)> {
+        self.0.iter().flat_map(|(path, digest)| {
+            let own = (path.display().to_string(), digest.hash.as_str());
+            let parts = digest.parts.iter();
+            std::iter::once(own).chain(parts.map(|(path, hash)| (path.clone(), hash.as_str())))
+        })
     }
+
+    /// Hashes of one of the shot's files and of those that it names.
+    pub(super) fn of(&self, file: &Path) -> Vec<&str> {
+        let digest = self.0.get(file);
+        let parts = digest.iter().flat_map(|digest| &digest.parts);
+        let own = digest.iter().map(|digest| digest.hash.as_str());
+        own.chain(parts.map(|(_, hash)| hash.as_str())).collect()
+    }
+}
+
+/// A file that names no others; one beyond all limits is not read to its end.
+fn data(path: &Path) -> io::Result<Digest> {
+    let hash = rest(Hasher::new(), &mut File::open(path)?.take(MODEL_BYTES))?;
+    let (hash, parts) = (hash.to_hex().to_string(), Vec::new());
+    Ok(Digest { hash, parts })
+}
+
+/// A model and the files that it names.
+fn model(shot: &Shot, file: &Path, path: &Path) -> Result<Digest, FileError> {
+    let folder = shot.path.parent().unwrap_or(Path::new(""));
+    let (mut files, opened) = ModelFiles::open(path, &[folder])?;
+    let is_obj = path
+        .extension()
+        .is_some_and(|e| e.eq_ignore_ascii_case("obj"));
+    let mut parts: Vec<(String, Opened)> = Vec::new();
+    let hash = if is_obj {
+        let (hash, libraries) = opened.read(obj)?;
+        for name in libraries {
+            parts.extend(files.libraries(&name)?);
+        }
+        hash
+    } else {
+        let (hash, uris) = opened.read(gltf)?;
+        for uri in uris {
+            let part = files.part_by_uri(&uri)?;
+            parts.push((uri, part));
+        }
+        hash
+    };
+    let beside = file.parent().unwrap_or(Path::new(""));
+    let parts = parts.into_iter().map(|(name, opened)| {
+        let hash = opened.read(|file| rest(Hasher::new(), file))?;
+        Ok((
+            beside.join(name).display().to_string(),
+            hash.to_hex().to_string(),
+        ))
+    });
+    Ok(Digest {
+        hash: hash.to_hex().to_string(),
+        parts: parts.collect::<Result<_, FileError>>()?,
+    })
+}
+
+/// The hash of what `hasher` has seen and of the rest of a file.
+fn rest(mut hasher: Hasher, file: &mut impl Read) -> io::Result<Hash> {
+    io::copy(file, &mut hasher)?;
+    Ok(hasher.finalize())
+}
+
+/// The hash of an OBJ file, and what its `mtllib` lines name.
+fn obj(file: &mut impl BufRead) -> io::Result<(Hash, IndexSet<String>)> {
+    let mut hasher = Hasher::new();
+    let mut libraries = IndexSet::new();
+    let (mut bytes, mut joined) = (Vec::new(), String::new());
+    while file.read_until(b'\n', &mut bytes)? > 0 {
+        hasher.update(&bytes);
+        let line = String::from_utf8_lossy(&bytes);
+        let line = line.trim();
+        if let Some(part) = line.strip_suffix('\\') {
+            joined.push_str(part);
+            joined.push(' ');
+        } else {
+            joined.push_str(line);
+            if let Some((keyword, name)) = joined.split_once(char::is_whitespace)
+                && keyword == "mtllib"
+            {
+                libraries.insert(name.trim().to_owned());
+            }
+            joined.clear();
+        }
+        bytes.clear();
+    }
+    Ok((hasher.finalize(), libraries))
+}
+
+/// The JSON of a glTF file, as far as it names files.
+#[derive(Default, Deserialize)]
+struct Named {
+    #[serde(default)]
+    buffers: Vec<Buffer>,
+}
+
+#[derive(Deserialize)]
+struct Buffer {
+    uri: Option<String>,
+}
+
+/// The hash of a glTF or glb file, and the URIs of its buffers; images are not read.
+fn gltf(file: &mut impl Read) -> io::Result<(Hash, IndexSet<String>)> {
+    /// Header of a glb file and of its first chunk, the JSON.
+    const HEADER: u64 = 20;
+    let mut hasher = Hasher::new();
+    let mut json = Vec::new();
+    file.take(HEADER).read_to_end(&mut json)?;
+    let length = match json.as_slice() {
+        [b'g', b'l', b'T', b'F', .., a, b, c, d, _, _, _, _] if json.len() as u64 == HEADER => {
+            let length = u64::from(u32::from_le_bytes([*a, *b, *c, *d]));
+            hasher.update(&json);
+            json.clear();
+            length
+        }
+        _ => u64::MAX,
+    };
+    file.take(length).read_to_end(&mut json)?;
+    hasher.update(&json);
+    let text = json.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(&json);
+    let named: Named = serde_json::from_slice(text).unwrap_or_default();
+    let uris = named.buffers.into_iter().filter_map(|buffer| buffer.uri);
+    let uris = uris.filter(|uri| !uri.starts_with("data:")).collect();
+    Ok((rest(hasher, file)?, uris))
 }

@@ -2,7 +2,9 @@
 //! right one, and the trace that it shares with others.
 
 use super::files::Digests;
-use crate::shot::Shot;
+use super::parts::{self, Parts, Pixels};
+use super::traced::trace_key;
+use crate::shot::{Exposure, Shot};
 use indexmap::IndexMap;
 
 /// Raised whenever the same shot gives other pixels than before, so that no older picture passes
@@ -36,15 +38,22 @@ pub struct Keys {
     shot: Shot,
     digests: Digests,
     picture: Picture,
+    /// Of the parts of frame 1 that exposure is metered on; None where it is authored.
+    metered: Option<String>,
 }
 
 impl Keys {
     /// Keys of the frames of `shot` at a size.
     pub fn new(shot: Shot, digests: Digests, picture: Picture) -> Self {
+        let metered = matches!(shot.sensor.exposure, Exposure::Auto(_)).then(|| {
+            let first = made_of(&shot.at(1), &digests, Pixels::Metered);
+            format!("#{}", &parts::hash(&first).to_hex()[..16])
+        });
         Self {
             shot,
             digests,
             picture,
+            metered,
         }
     }
 
@@ -60,21 +69,26 @@ impl Keys {
 
     /// What frame number `frame` is made of.
     pub fn frame(&self, frame: u32) -> FrameKey {
-        let mut parts = IndexMap::new();
-        parts.insert("epoch".to_owned(), EPOCH.to_string());
-        parts.insert("frame".to_owned(), frame.to_string());
-        parts.insert("picture".to_owned(), format!("{:?}", self.picture));
-        let text = blake3::hash(self.shot.places.text().as_bytes()).to_hex();
-        parts.insert("shot".to_owned(), text[..16].to_owned());
-        for (path, digest) in self.digests.iter() {
-            parts.insert(path.to_owned(), digest[..16].to_owned());
-        }
-        let text = serde_json::json!(parts).to_string();
-        let fingerprint = blake3::hash(text.as_bytes()).to_hex().to_string();
+        let still = self.shot.at(frame);
+        let pixels = Pixels::Written {
+            picture: self.picture,
+            metered: self.metered.as_deref(),
+        };
+        let parts = made_of(&still, &self.digests, pixels);
         FrameKey {
-            trace: fingerprint.clone(),
-            fingerprint,
+            fingerprint: parts::hash(&parts).to_hex().to_string(),
+            trace: trace_key(&self.shot, &still, &self.digests, self.picture),
             parts,
         }
     }
+}
+
+/// What the pixels of a shot of one frame are made of.
+fn made_of(still: &Shot, digests: &Digests, pixels: Pixels<'_>) -> Parts {
+    let mut made_of = Parts::new();
+    made_of.insert("epoch".to_owned(), EPOCH.to_string());
+    made_of.extend(parts::parts(still, pixels));
+    let file = |(path, hash): (String, &str)| (format!("file {path}"), hash[..16].to_owned());
+    made_of.extend(digests.iter().map(file));
+    made_of
 }

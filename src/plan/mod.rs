@@ -7,6 +7,8 @@ mod effects;
 mod files;
 mod key;
 mod motion;
+mod parts;
+mod traced;
 
 pub use effects::{Called, Reason, called};
 pub use files::Digests;

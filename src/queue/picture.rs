@@ -3,7 +3,7 @@
 use crate::film::{self, EncodeError, Film, Metadata, develop, exr};
 use crate::render::development;
 use crate::scene::Scene;
-use crate::shot::{Depth, Format, Sensor, Shot};
+use crate::shot::{Depth, Exposure, Format, Sensor, Sequence, Shot, Track};
 
 /// The files of a frame: extension and content, and how many values had to be clamped.
 pub struct Pictures {
@@ -83,9 +83,18 @@ fn metadata(shot: &Shot, frame: u32, scene: &Scene, exposure_stops: f64, samples
         lorentz_factor: Some(camera.lorentz_factor()),
         time_s: Some(shot.shot.time.at(frame, shot.shot.frames)),
         worldlines: scene.worldline_names.clone(),
-        shot: Some(shot.places.text().to_owned()),
+        shot: Some(still(shot, frame, exposure_stops)),
         ..Metadata::default()
     }
+}
+
+/// The shot that this frame alone is rendered again from: what moves stands still, and what was
+/// metered is written down.
+fn still(shot: &Shot, frame: u32, exposure_stops: f64) -> String {
+    let mut still = shot.at(frame);
+    still.sensor.exposure = Exposure::Stops(Track::Constant(exposure_stops));
+    still.sequence = Sequence::default();
+    still.to_toml()
 }
 
 /// The window, where a picture is not what an eye would see.

@@ -2,7 +2,7 @@
 
 use super::model::{self, Mesh, Model};
 use super::sky::{SkyImage, Star, Stars, random_stars};
-use crate::shot::{self, Mistake, Mistakes, Shot, SpectrumTable, SpectrumValue};
+use crate::shot::{self, Mistake, Mistakes, Shot};
 use crate::spectrum::Sampled;
 use std::collections::HashMap;
 use std::fs;
@@ -38,18 +38,20 @@ impl Library {
         let mut mistakes = Vec::new();
         let models = load_models(shot, &mut mistakes);
         let mut tables = HashMap::new();
-        for (key, table) in named_tables(shot) {
+        for (key, table) in shot.spectrum_tables() {
             if let Some(file) = &table.file {
-                match read_table(&beside(shot, file)) {
+                match read_table(&shot.beside(file)) {
                     Ok(curve) => {
                         tables.insert(file.clone(), curve);
                     }
-                    Err(message) => mistakes.push(shot.places.mistake(&key, message, None)),
+                    Err(message) => {
+                        mistakes.push(shot.places.mistake(&format!("{key}.file"), message, None))
+                    }
                 }
             }
         }
         let sky = shot.background.image.as_ref().and_then(|file| {
-            let image = SkyImage::read(&beside(shot, file)).map_err(|e| e.to_string());
+            let image = SkyImage::read(&shot.beside(file)).map_err(|e| e.to_string());
             let help = "name a panorama as Radiance HDR, OpenEXR or PNG";
             kept(shot, ("background.image", help), image, &mut mistakes)
         });
@@ -120,7 +122,7 @@ fn load_models(shot: &Shot, mistakes: &mut Vec<Mistake>) -> Vec<Arc<Loaded>> {
     let mut models = Vec::new();
     for (index, model) in shot.model.iter().enumerate() {
         let loaded = known.entry(&model.file).or_insert_with(|| {
-            match model::load(&beside(shot, &model.file), &[folder]) {
+            match model::load(&shot.beside(&model.file), &[folder]) {
                 Ok(mut file) => {
                     let meshes = std::mem::take(&mut file.meshes)
                         .into_iter()
@@ -138,13 +140,6 @@ fn load_models(shot: &Shot, mistakes: &mut Vec<Mistake>) -> Vec<Arc<Loaded>> {
         models.extend(loaded.clone());
     }
     models
-}
-
-/// A path of the shot, which is relative to the shot file.
-pub(super) fn beside(shot: &Shot, file: &Path) -> PathBuf {
-    shot.path
-        .parent()
-        .map_or_else(|| file.to_owned(), |folder| folder.join(file))
 }
 
 /// What a file gave, or nothing and the mistake.
@@ -166,7 +161,7 @@ fn load_stars(shot: &Shot, stars: &shot::Stars) -> Result<Stars, String> {
     let list = match stars {
         shot::Stars::Random(keys) => random_stars(keys),
         shot::Stars::Catalogue(keys) => {
-            let path = beside(shot, &keys.file);
+            let path = shot.beside(&keys.file);
             Star::from_csv(&read_text(&path)?).map_err(|e| format!("{}: {e}", path.display()))?
         }
     };
@@ -185,29 +180,4 @@ fn read_text(path: &Path) -> Result<String, String> {
         ));
     }
     fs::read_to_string(path).map_err(|e| e.to_string())
-}
-
-/// Every spectrum table of a shot, with its key.
-fn named_tables(shot: &Shot) -> Vec<(String, &SpectrumTable)> {
-    let mut values: Vec<(String, &Option<SpectrumValue>)> = Vec::new();
-    for (name, material) in &shot.material {
-        let terms = material.spectra();
-        values.extend(terms.map(|(term, value)| (format!("material.{name}.{term}"), value)));
-    }
-    for (i, light) in shot.light.iter().enumerate() {
-        values.push((format!("light[{i}].spectrum"), &light.spectrum));
-    }
-    values.push(("background.spectrum".to_owned(), &shot.background.spectrum));
-    let inline = values.into_iter().filter_map(|(key, value)| match value {
-        Some(SpectrumValue::Table(table)) => Some((key, &**table)),
-        _ => None,
-    });
-    let named = shot
-        .spectrum
-        .iter()
-        .map(|(name, table)| (format!("spectrum.{name}"), table));
-    inline
-        .chain(named)
-        .map(|(key, table)| (format!("{key}.file"), table))
-        .collect()
 }

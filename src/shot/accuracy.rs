@@ -2,10 +2,10 @@
 //! costs in time and brings in exactness; the presets are its findings.
 
 use schemars::JsonSchema;
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 /// How exactly an image is computed: every key of `[accuracy]` has its value.
-#[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(from = "AccuracyKeys")]
 pub struct Accuracy {
     /// How curves are held.
@@ -101,7 +101,7 @@ impl From<AccuracyKeys> for Accuracy {
 }
 
 /// How curves are held while rendering.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum Spectra {
     /// Baked on a grid in ln λ, where a Doppler shift is a translation: fast.
@@ -117,7 +117,7 @@ pub enum Spectra {
 }
 
 /// Precision of rays and triangles in the rest frame of a body.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum Precision {
     /// 64 bits: 16 digits.

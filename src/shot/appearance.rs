@@ -6,11 +6,11 @@
 
 use super::Track;
 use schemars::JsonSchema;
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 
 /// `[material.NAME]`: the terms of a material. A term that is not named is not there.
-#[derive(Debug, Clone, Default, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Material {
     /// Lambertian reflection. Default: none.
@@ -62,7 +62,7 @@ impl Material {
 }
 
 /// Lambertian reflection: L = ρE/π with the reflectance ρ = weight × spectrum.
-#[derive(Debug, Clone, Default, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Diffuse {
     /// Factor on `spectrum`, at least 0; weight × spectrum is a reflectance, at most 1. Default: 1.
@@ -74,7 +74,7 @@ pub struct Diffuse {
 }
 
 /// Blurred reflection of lights: adds weight × spectrum × (n + 8)/(8π) × (N·H)ⁿ to the BRDF.
-#[derive(Debug, Clone, Default, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Highlight {
     /// Factor on `spectrum`, at least 0; weight × spectrum is a reflectance, at most 1. Default: 1.
@@ -89,7 +89,7 @@ pub struct Highlight {
 }
 
 /// Ideal reflection.
-#[derive(Debug, Clone, Default, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Mirror {
     /// Factor on `spectrum`, at least 0; weight × spectrum is a reflectance, at most 1. Default: 1.
@@ -101,7 +101,7 @@ pub struct Mirror {
 }
 
 /// Ideal refraction.
-#[derive(Debug, Clone, Default, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Refraction {
     /// Factor on `spectrum`, at least 0; weight × spectrum is a transmittance, at most 1. Default: 1.
@@ -116,7 +116,7 @@ pub struct Refraction {
 }
 
 /// Cold light: scale × spectrum is the spectral radiance, W·m⁻²·sr⁻¹·nm⁻¹.
-#[derive(Debug, Clone, Default, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Emission {
     /// Factor on `spectrum`, at least 0. Default: 1.
@@ -129,7 +129,7 @@ pub struct Emission {
 }
 
 /// Thermal light: Planck's curve times the emissivity.
-#[derive(Debug, Clone, Default, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Thermal {
     /// Temperature, K, at least 0. Default: 0.
@@ -146,7 +146,7 @@ pub struct Thermal {
 }
 
 /// How strong thermal light is.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum ThermalCurve {
     /// As Planck's law has it.
@@ -156,7 +156,7 @@ pub enum ThermalCurve {
 }
 
 /// Wherever a spectrum stands: a name, a number, or a table inline.
-#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(untagged)]
 pub enum SpectrumValue {
     /// The same at every wavelength.
@@ -168,7 +168,7 @@ pub enum SpectrumValue {
 }
 
 /// `[spectrum.NAME]` or the same inline: exactly one of the kinds, and what belongs to it.
-#[derive(Debug, Clone, Default, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct SpectrumTable {
     /// Kind: cardinal cubic spline through (nm, value) points, wavelengths above 0 and strictly ascending, values at least 0.
@@ -200,7 +200,7 @@ pub struct SpectrumTable {
 }
 
 /// A bell over the wavelengths: exp(−(λ − center)²/(2 width²)).
-#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Gaussian {
     /// Wavelength of the peak, nm, above 0.
@@ -212,7 +212,7 @@ pub struct Gaussian {
 }
 
 /// What a spectrum is beyond its first and last wavelength.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum Beyond {
     /// The value at the end goes on.

@@ -4,11 +4,11 @@
 use super::Track;
 use indexmap::IndexMap;
 use schemars::JsonSchema;
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 
 /// `[worldline.NAME]`: an inertial reference frame.
-#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Worldline {
     /// Velocity in the lab in units of c, below 1: [0.5, 0, 0], or { gamma, direction }, or { rapidity, direction }.
@@ -22,7 +22,7 @@ pub struct Worldline {
 }
 
 /// A velocity, by whichever measure its author prefers.
-#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(untagged)]
 pub enum Velocity {
     /// By Lorentz factor and direction.
@@ -34,7 +34,7 @@ pub enum Velocity {
 }
 
 /// A velocity by Lorentz factor and direction.
-#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct GammaVelocity {
     /// Lorentz factor, from 1 (at rest) to 1e74.
@@ -45,7 +45,7 @@ pub struct GammaVelocity {
 }
 
 /// A velocity by rapidity and direction.
-#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct RapidityVelocity {
     /// Rapidity artanh(v/c), from 0 (at rest) to 170.
@@ -56,7 +56,7 @@ pub struct RapidityVelocity {
 }
 
 /// `[[model]]`: a model file and where it stands: scaled, rotated, translated, then arrayed.
-#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Model {
     /// Name in messages and in `probe`. Default: the file's stem.
@@ -76,12 +76,12 @@ pub struct Model {
     /// Name of the material of every surface. Default: the file's materials.
     pub material: Option<String>,
     /// Material by the name it has in the file: { "Name in the file" = "red" }. Default: the file's materials.
-    #[serde(default)]
+    #[serde(default, skip_serializing_if = "IndexMap::is_empty")]
     pub materials: IndexMap<String, String>,
 }
 
 /// A scale for all axes together or for each.
-#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(untagged)]
 pub enum Scale {
     /// The same along all axes.
@@ -91,7 +91,7 @@ pub enum Scale {
 }
 
 /// Copies of a model in rows, columns and layers.
-#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Array {
     /// Copies along x, y and z, each at least 1, at most 10000000 in all.

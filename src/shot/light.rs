@@ -3,10 +3,10 @@
 
 use super::{SpectrumValue, Track};
 use schemars::JsonSchema;
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 /// `[[light]]`: a lamp. Its spectrum gives the shape of its light, `intensity` or `scale` the amount.
-#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Light {
     /// What kind of lamp it is.
@@ -37,7 +37,7 @@ pub struct Light {
 }
 
 /// A kind of lamp.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum LightKind {
     /// From one point into all directions.

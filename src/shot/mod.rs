@@ -20,17 +20,20 @@ mod later;
 mod light;
 mod load;
 mod mistake;
+mod model_files;
+mod named_files;
 mod names;
 mod schema;
 mod sequence;
 mod settings;
 mod sky;
+mod still;
 mod track;
 mod walk;
 
 use indexmap::IndexMap;
 use schemars::JsonSchema;
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 
 pub use accuracy::{Accuracy, AccuracyKeys, Precision, Preset, Spectra};
@@ -44,6 +47,7 @@ pub use check::{ILLUMINANTS, MAX_INSTANCES};
 pub use light::{Light, LightKind};
 pub use load::{MAX_BYTES, load, parse};
 pub use mistake::{Mistake, Mistakes, Places};
+pub use model_files::{FileError, MODEL_BYTES, ModelFiles, Opened};
 pub use schema::schema;
 pub use sequence::{Corner, Inset, InsetPixel, PixelName, Sequence, Sheet, Video};
 pub use settings::{
@@ -56,7 +60,7 @@ pub use sky::{
 pub use track::{Blend, Ease, Track};
 
 /// A restframe shot: what is in the scene, how it moves, who looks at it and what is written.
-#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Shot {
     /// Title, length and clock of the sequence.
@@ -68,19 +72,19 @@ pub struct Shot {
     #[schemars(extend("default" = {}))]
     pub image: Image,
     /// Inertial reference frames by name. "lab" (at rest) and "camera" (the camera's own) exist always.
-    #[serde(default)]
+    #[serde(default, skip_serializing_if = "IndexMap::is_empty")]
     pub worldline: IndexMap<String, Worldline>,
     /// Models from files, and where they stand. At least one.
     #[schemars(length(min = 1))]
     pub model: Vec<Model>,
     /// Materials by name. A name that a model file has too is laid over the imported material: given keys replace, the rest stays.
-    #[serde(default)]
+    #[serde(default, skip_serializing_if = "IndexMap::is_empty")]
     pub material: IndexMap<String, Material>,
     /// Spectra by name, for use wherever a spectrum stands.
-    #[serde(default)]
+    #[serde(default, skip_serializing_if = "IndexMap::is_empty")]
     pub spectrum: IndexMap<String, SpectrumTable>,
     /// Lamps beside those of the model files.
-    #[serde(default)]
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub light: Vec<Light>,
     /// What is seen where no surface is.
     #[serde(default)]
@@ -93,7 +97,7 @@ pub struct Shot {
     #[schemars(extend("default" = {}))]
     pub effects: Effects,
     /// Parts of the image rendered with other effects.
-    #[serde(default)]
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub splice: Vec<Splice>,
     /// From spectral radiance to pixel values.
     #[serde(default)]
@@ -108,7 +112,7 @@ pub struct Shot {
     #[schemars(extend("default" = {}))]
     pub output: Output,
     /// Plots of single pixels' curves, drawn into the PNG.
-    #[serde(default)]
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub inset: Vec<Inset>,
     /// What is assembled from the finished frames.
     #[serde(default)]

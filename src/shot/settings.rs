@@ -3,7 +3,7 @@
 
 use super::Track;
 use schemars::JsonSchema;
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 /// Most pixels on a side of an image.
 pub const LARGEST_SIDE: u32 = 32768;
@@ -15,7 +15,7 @@ const SHORTEST_NM: f64 = 1e-9;
 const LONGEST_NM: f64 = 1e15;
 
 /// `[shot]`: title, length and clock of the sequence.
-#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Clock {
     /// Title of the shot, written to the images' metadata. Default: the file's stem.
@@ -46,7 +46,7 @@ impl Default for Clock {
 }
 
 /// `[image]`: size and sampling of every image.
-#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Image {
     /// Width and height in pixels, each from 1 to 32768. Default: [1280, 720].
@@ -70,7 +70,7 @@ impl Default for Image {
 }
 
 /// Reconstruction filter of the pixels.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Filter {
     /// A smooth bell over the neighbouring pixels: no stairs, no ringing.
@@ -80,7 +80,7 @@ pub enum Filter {
 }
 
 /// `[effects]`: which effects are simulated. "auto" means in the frames that call for it.
-#[derive(Debug, Clone, Copy, PartialEq, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Effects {
     /// Finite light speed: retardation, aberration, contraction. "off" is as if c were infinite. Default: "auto".
@@ -112,7 +112,7 @@ impl Default for Effects {
 }
 
 /// Whether an effect is simulated.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum Switch {
     /// In the frames that call for it.
@@ -122,7 +122,7 @@ pub enum Switch {
 }
 
 /// The change of power with motion, D being the Doppler factor observed over emitted frequency.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum Beaming {
     /// D⁵ on spectral radiance, D³ on spectral irradiance: the physics.
@@ -134,7 +134,7 @@ pub enum Beaming {
 }
 
 /// `[[splice]]`: rows of the image that are rendered with other effects.
-#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Splice {
     /// First and last row as fractions of the height from the top, ascending, from 0 to 1.
@@ -145,7 +145,7 @@ pub struct Splice {
 }
 
 /// The effects that a splice changes; the rest are the shot's.
-#[derive(Debug, Clone, Copy, Default, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct SpliceEffects {
     /// Finite light speed: retardation, aberration, contraction. Default: the shot's.
@@ -164,7 +164,7 @@ pub struct SpliceEffects {
 }
 
 /// `[sensor]`: from spectral radiance to pixel values.
-#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Sensor {
     /// Shortest and longest wavelength seen, nm, ascending: any band from gamma rays to radio, from 1e-9 to 1e15. Default: [360, 830].
@@ -191,7 +191,7 @@ impl Default for Sensor {
 }
 
 /// How wavelengths become color.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum SensorColor {
     /// As the CIE's standard observer of 1931 (2°) sees them: what the window leaves of 360 to 830 nm.
@@ -201,7 +201,7 @@ pub enum SensorColor {
 }
 
 /// How bright a radiance appears.
-#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(untagged)]
 pub enum Exposure {
     /// Stops: 0 makes 100 cd/m² 1.0 (of bands 100 W·m⁻²·sr⁻¹), +1 doubles.
@@ -211,7 +211,7 @@ pub enum Exposure {
 }
 
 /// The word for a metered exposure.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum AutoExposure {
     /// The 95th percentile of frame 1 becomes 0.8: of luminance, or of the mean of the bands.
@@ -219,7 +219,7 @@ pub enum AutoExposure {
 }
 
 /// What becomes of values above 1.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum Tone {
     /// They are cut off at 1.
@@ -227,7 +227,7 @@ pub enum Tone {
 }
 
 /// `[output]`: files and layers that are written.
-#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Output {
     /// Image files of every frame. Default: ["png"].
@@ -250,7 +250,7 @@ impl Default for Output {
 }
 
 /// A kind of image file.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum Format {
     /// 8 bit sRGB after exposure and tone.
@@ -260,7 +260,7 @@ pub enum Format {
 }
 
 /// What the color channels of an EXR are held in.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum Depth {
     /// 32 bits a value.
@@ -270,7 +270,7 @@ pub enum Depth {
 }
 
 /// An extra layer of the EXR, about the first surface that a pixel sees.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Layer {
     /// Doppler factor: observed over emitted frequency.

@@ -3,7 +3,7 @@
 
 use super::{SpectrumValue, Track};
 use schemars::JsonSchema;
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 
 /// Most stars of a sky.
@@ -17,7 +17,7 @@ pub const STAR_KELVIN: [f64; 2] = [500.0, 1e9];
 pub const STAR_MAGNITUDE: [f64; 2] = [-50.0, 50.0];
 
 /// `[background]`: what is seen where no surface is.
-#[derive(Debug, Clone, Default, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Background {
     /// Worldline that it rides on; "camera" leaves it unshifted. Default: "camera".
@@ -35,7 +35,7 @@ pub struct Background {
 }
 
 /// Stars, each a disc that glows as a black body.
-#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(untagged)]
 pub enum Stars {
     /// From a catalogue.
@@ -55,7 +55,7 @@ impl Stars {
 }
 
 /// Stars from a catalogue.
-#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct StarCatalogue {
     /// CSV file of azimuth (degrees, 0 is −z, positive to the right), elevation (degrees), temperature (500 to 1e9 K), visual magnitude; at most a million rows.
@@ -67,7 +67,7 @@ pub struct StarCatalogue {
 }
 
 /// Stars strewn at random, the same for the same keys on every machine.
-#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct RandomStars {
     /// How many, from 1 to a million, evenly over the sphere.

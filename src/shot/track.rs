@@ -5,10 +5,10 @@
 //! ones span, and two equal ones give that value exactly.
 
 use schemars::JsonSchema;
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 /// A value that may move over the shot's frames: constant, ramp or keys.
-#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(untagged, deny_unknown_fields)]
 #[schemars(rename = "TrackOf{T}")]
 pub enum Track<T> {
@@ -33,7 +33,7 @@ pub enum Track<T> {
 }
 
 /// How a value moves between two keys.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum Ease {
     /// At constant rate.

@@ -2,6 +2,7 @@
 
 use super::blender::here;
 use restframe::scene::model::{ModelError, load};
+use restframe::shot::FileError;
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
 
@@ -379,10 +380,13 @@ fn a_part_is_read_from_a_folder_that_is_allowed_and_no_other() {
     );
     gltf["buffers"][0]["uri"] = json!("../my%20part.bin");
     let path = write(&models, "m.gltf", gltf.to_string().as_bytes());
-    assert!(matches!(load(&path, &[]), Err(ModelError::Outside { .. })));
+    assert!(matches!(
+        load(&path, &[]),
+        Err(ModelError::File(FileError::Outside { .. }))
+    ));
     assert!(matches!(
         load(&path, &[Path::new("/proc")]),
-        Err(ModelError::Outside { .. })
+        Err(ModelError::File(FileError::Outside { .. }))
     ));
     assert_eq!(load(&path, &[folder.path()]).unwrap().triangles(), 1);
     #[cfg(unix)]
@@ -390,6 +394,9 @@ fn a_part_is_read_from_a_folder_that_is_allowed_and_no_other() {
         std::os::unix::fs::symlink("../my part.bin", models.join("link.bin")).unwrap();
         gltf["buffers"][0]["uri"] = json!("link.bin");
         write(&models, "m.gltf", gltf.to_string().as_bytes());
-        assert!(matches!(load(&path, &[]), Err(ModelError::Outside { .. })));
+        assert!(matches!(
+            load(&path, &[]),
+            Err(ModelError::File(FileError::Outside { .. }))
+        ));
     }
 }

@@ -1,5 +1,6 @@
 //! What can be wrong with a model file: each message says what, where, what was expected, what to do.
 
+use crate::shot::FileError;
 use std::path::PathBuf;
 use thiserror::Error;
 
@@ -7,36 +8,9 @@ use thiserror::Error;
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum ModelError {
-    /// The file is not there.
-    #[error("model file `{}` does not exist: check the path, which is relative to the shot", file.display())]
-    Missing {
-        /// The model file.
-        file: PathBuf,
-    },
-    /// The file could not be read.
-    #[error("model file `{}` cannot be read: {source}", file.display())]
-    Read {
-        /// The model file.
-        file: PathBuf,
-        /// What the system said.
-        source: std::io::Error,
-    },
-    /// A folder, pipe or device stands where a file should.
-    #[error("`{}` is not a regular file: expected a model in OBJ, glTF or glb form", file.display())]
-    NotAFile {
-        /// The model file, or one that it names.
-        file: PathBuf,
-    },
-    /// More bytes than are read.
-    #[error("model `{}` and the files it names come to {bytes} bytes, more than the {limit} that are read: split or decimate it", file.display())]
-    TooLarge {
-        /// The model file.
-        file: PathBuf,
-        /// Size found.
-        bytes: u64,
-        /// Size allowed.
-        limit: u64,
-    },
+    /// The file, or one that it names, could not be read.
+    #[error(transparent)]
+    File(#[from] FileError),
     /// The extension names no form that is read.
     #[error("`{}` is of a kind that is not read: expected a name ending in .obj, .gltf or .glb; export it so", file.display())]
     UnknownKind {
@@ -176,32 +150,6 @@ pub enum ModelError {
         file: PathBuf,
         /// Which node.
         node: String,
-    },
-    /// A file name that leads out of the folders that may be read.
-    #[error("model `{}` names the file `{uri}`, outside the folders it may read, its own and the shot's: put that file beside the model or the shot", file.display())]
-    Outside {
-        /// The model file.
-        file: PathBuf,
-        /// As the model has it.
-        uri: String,
-    },
-    /// A file name that is absolute, remote or not decodable.
-    #[error("model `{}` names the file `{uri}`, which is {problem}: expected a name relative to the model; put that file beside it", file.display())]
-    Uri {
-        /// The model file.
-        file: PathBuf,
-        /// As the model has it, cut short.
-        uri: String,
-        /// What is wrong with it.
-        problem: &'static str,
-    },
-    /// A file that the model names is not there.
-    #[error("model `{}` names the file `{uri}`, which does not exist: copy it along with the model, or export as one .glb", file.display())]
-    MissingPart {
-        /// The model file.
-        file: PathBuf,
-        /// As the model has it.
-        uri: String,
     },
     /// More of something than is read.
     #[error("model `{}` holds {count} {what} or more, expected at most {limit}", file.display())]

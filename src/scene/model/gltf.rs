@@ -14,8 +14,8 @@ mod material;
 mod nodes;
 mod primitive;
 
-use super::files::Files;
 use super::{Model, ModelError, Warning};
+use crate::shot::ModelFiles;
 use ::gltf::json::{Index, Root};
 use indexmap::IndexSet;
 use serde_json::Value;
@@ -37,7 +37,7 @@ struct Source<'a> {
 }
 
 /// Reads a glTF or glb file.
-pub(super) fn read(bytes: &[u8], files: &mut Files) -> Result<Model, ModelError> {
+pub(super) fn read(bytes: &[u8], files: &mut ModelFiles) -> Result<Model, ModelError> {
     let container = container::split(bytes, &files.model)?;
     let mut model = Model::default();
     let (root, raw) = container::parse(container.json, &files.model, &mut model.warnings)?;

@@ -12,7 +12,6 @@
 //! EXT_mesh_gpu_instancing; Wavefront OBJ and MTL as Blender 4 and 5 write them.
 
 mod error;
-mod files;
 mod gltf;
 mod material;
 mod measure;
@@ -21,13 +20,12 @@ mod obj;
 mod polygon;
 mod warning;
 
+use crate::shot::ModelFiles;
 use ::glam::{DAffine3, DVec3, Vec3};
 use std::path::Path;
 
 pub use error::ModelError;
 pub use warning::Warning;
-
-use files::Files;
 
 /// What a model file holds.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -130,7 +128,8 @@ pub fn load(path: &Path, may_read: &[&Path]) -> Result<Model, ModelError> {
             file: path.to_owned(),
         });
     }
-    let (mut files, bytes) = Files::open(path, may_read)?;
+    let (mut files, opened) = ModelFiles::open(path, may_read)?;
+    let bytes = opened.bytes()?;
     let model = match extension.as_str() {
         "obj" => obj::read(bytes, &mut files),
         _ => gltf::read(&bytes, &mut files),

@@ -7,16 +7,16 @@
 mod library;
 mod scan;
 
-use super::files::Files;
 use super::mesh::RawMesh;
 use super::polygon::Triangulator;
 use super::{Model, ModelError, ModelMaterial, Placement, Warning};
+use crate::shot::ModelFiles;
 use ::glam::{DAffine3, DVec3};
 use indexmap::IndexMap;
 use tobj::LoadOptions;
 
 /// Reads the text of an OBJ file and the material libraries it names.
-pub(super) fn read(bytes: Vec<u8>, files: &mut Files) -> Result<Model, ModelError> {
+pub(super) fn read(bytes: Vec<u8>, files: &mut ModelFiles) -> Result<Model, ModelError> {
     let text = String::from_utf8(bytes)
         .unwrap_or_else(|error| String::from_utf8_lossy(error.as_bytes()).into_owned());
     let scan = scan::scan(&text, files)?;

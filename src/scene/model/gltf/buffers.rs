@@ -1,8 +1,8 @@
 //! The bytes of a file's buffers: the glb's own chunk, data URIs, files beside the model.
 
 use super::super::ModelError;
-use super::super::files::Files;
 use super::invalid;
+use crate::shot::ModelFiles;
 use ::gltf::json::Root;
 use std::borrow::Cow;
 
@@ -10,7 +10,7 @@ use std::borrow::Cow;
 pub(super) fn load<'a>(
     root: &Root,
     binary: Option<&'a [u8]>,
-    files: &mut Files,
+    files: &mut ModelFiles,
 ) -> Result<Vec<Cow<'a, [u8]>>, ModelError> {
     let mut buffers = Vec::new();
     for (index, buffer) in root.buffers.iter().enumerate() {
@@ -42,14 +42,11 @@ pub(super) fn load<'a>(
     Ok(buffers)
 }
 
-fn from_uri(uri: &str, files: &mut Files) -> Result<Vec<u8>, ModelError> {
+fn from_uri(uri: &str, files: &mut ModelFiles) -> Result<Vec<u8>, ModelError> {
     if let Some(data) = uri.strip_prefix("data:") {
         let encoded = data.split_once(";base64,").map(|(_, encoded)| encoded);
         let encoded = encoded.ok_or_else(|| files.bad_uri(uri, "data but not in base64"))?;
-        return base64::decode(encoded).map_err(|_| files.bad_uri(uri, "not valid base64"));
+        return base64::decode(encoded).map_err(|_| files.bad_uri(uri, "not valid base64").into());
     }
-    match urlencoding::decode(uri) {
-        Ok(name) => files.part(&name),
-        Err(_) => Err(files.bad_uri(uri, "not valid percent-encoded text")),
-    }
+    Ok(files.part_by_uri(uri)?.bytes()?)
 }

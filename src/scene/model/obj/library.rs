@@ -3,8 +3,8 @@
 //! `Ke` is color times strength. A material with a picture (`map_Kd`) has no `Kd` line in Blender's
 //! files and is drawn white. Surfaces of OBJ are seen from both sides.
 
-use super::super::files::Files;
 use super::super::{ModelError, ModelMaterial, Warning};
+use crate::shot::{ModelFiles, Opened};
 use indexmap::{IndexMap, IndexSet};
 use std::path::Path;
 
@@ -15,7 +15,7 @@ const WHITE: [f64; 3] = [1.0; 3];
 pub(super) fn read(
     libraries: &IndexSet<String>,
     used: &IndexSet<String>,
-    files: &mut Files,
+    files: &mut ModelFiles,
     warnings: &mut Vec<Warning>,
 ) -> Result<Vec<ModelMaterial>, ModelError> {
     let mut materials = IndexMap::new();
@@ -58,31 +58,20 @@ pub(super) fn read(
     Ok(out)
 }
 
-/// The file of that name, or, since names may hold blanks and a line may hold names, its words.
+/// The libraries of an `mtllib` line, with their names.
 fn open(
     name: &str,
-    files: &mut Files,
+    files: &mut ModelFiles,
     warnings: &mut Vec<Warning>,
 ) -> Result<Vec<(String, Vec<u8>)>, ModelError> {
-    match files.part(name) {
-        Ok(bytes) => return Ok(vec![(name.to_owned(), bytes)]),
-        Err(ModelError::MissingPart { .. }) => {}
-        Err(error) => return Err(error),
-    }
-    let mut found = Vec::new();
-    for word in name.split_whitespace() {
-        match files.part(word) {
-            Ok(bytes) => found.push((word.to_owned(), bytes)),
-            Err(ModelError::MissingPart { .. }) => {}
-            Err(error) => return Err(error),
-        }
-    }
-    if found.is_empty() {
+    let opened = files.libraries(name)?;
+    if opened.is_empty() {
         warnings.push(Warning::MissingLibrary {
             name: name.to_owned(),
         });
     }
-    Ok(found)
+    let read = |(name, opened): (String, Opened)| Ok((name, opened.bytes()?));
+    opened.into_iter().map(read).collect()
 }
 
 /// The lines that are read, each of the form that tobj expects.

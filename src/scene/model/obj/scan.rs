@@ -1,10 +1,10 @@
 //! The lines of an OBJ file, each checked, and the text reduced to positions, normals, faces, names
 //! and materials.
 
-use super::super::files::Files;
 use super::super::mesh::is_in_range;
 use super::super::polygon::MAX_CORNERS;
 use super::super::{ModelError, Warning};
+use crate::shot::ModelFiles;
 use ::glam::DVec3;
 use indexmap::IndexSet;
 use std::fmt::Write;
@@ -62,7 +62,7 @@ pub(super) struct Scan {
 }
 
 /// Checks and reduces the text.
-pub(super) fn scan(text: &str, files: &Files) -> Result<Scan, ModelError> {
+pub(super) fn scan(text: &str, files: &ModelFiles) -> Result<Scan, ModelError> {
     let mut scan = Scan {
         text: String::from("mtllib all\n"),
         ..Scan::default()
@@ -262,7 +262,7 @@ impl Scan {
         Ok(indices)
     }
 
-    fn check_greatest(&self, files: &Files) -> Result<(), ModelError> {
+    fn check_greatest(&self, files: &ModelFiles) -> Result<(), ModelError> {
         let counts = [self.positions, self.coordinates, self.normals];
         for (kind, (&(index, line), count)) in self.greatest.iter().zip(counts).enumerate() {
             if index > count {

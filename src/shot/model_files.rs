@@ -1,0 +1,295 @@
+//! The files that a model may read: its own, and those it names within the folders allowed. Whoever
+//! reads a model, and whoever only hashes it, does so here.
+
+use std::fs::{self, File};
+use std::io::{BufReader, ErrorKind, Read};
+use std::path::{Component, Path, PathBuf};
+
+/// Bytes read for one model at most, files that it names included: 2 GiB.
+pub const MODEL_BYTES: u64 = 2 << 30;
+
+/// Longest part of a URI that a message repeats.
+const SHOWN_URI: usize = 80;
+
+/// Access to the disk on behalf of one model.
+#[derive(Debug)]
+pub struct ModelFiles {
+    /// The model file, as it was called.
+    pub model: PathBuf,
+    folder: PathBuf,
+    may_read: Vec<PathBuf>,
+    bytes_left: u64,
+}
+
+/// Why a file of a model cannot be read.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum FileError {
+    /// The file is not there.
+    #[error("model file `{}` does not exist: check the path, which is relative to the shot", file.display())]
+    Missing {
+        /// The model file.
+        file: PathBuf,
+    },
+    /// The file could not be read.
+    #[error("model file `{}` cannot be read: {source}", file.display())]
+    Read {
+        /// The model file.
+        file: PathBuf,
+        /// What the system said.
+        source: std::io::Error,
+    },
+    /// A folder, pipe or device stands where a file should.
+    #[error("`{}` is not a regular file: expected a model in OBJ, glTF or glb form", file.display())]
+    NotAFile {
+        /// The model file, or one that it names.
+        file: PathBuf,
+    },
+    /// More bytes than are read.
+    #[error("model `{}` and the files it names come to {bytes} bytes, more than the {limit} that are read: split or decimate it", file.display())]
+    TooLarge {
+        /// The model file.
+        file: PathBuf,
+        /// Size found.
+        bytes: u64,
+        /// Size allowed.
+        limit: u64,
+    },
+    /// A file name that leads out of the folders that may be read.
+    #[error("model `{}` names the file `{uri}`, outside the folders it may read, its own and the shot's: put that file beside the model or the shot", file.display())]
+    Outside {
+        /// The model file.
+        file: PathBuf,
+        /// As the model has it.
+        uri: String,
+    },
+    /// A file name that is absolute, remote or not decodable.
+    #[error("model `{}` names the file `{uri}`, which is {problem}: expected a name relative to the model; put that file beside it", file.display())]
+    Uri {
+        /// The model file.
+        file: PathBuf,
+        /// As the model has it, cut short.
+        uri: String,
+        /// What is wrong with it.
+        problem: &'static str,
+    },
+    /// A file that the model names is not there.
+    #[error("model `{}` names the file `{uri}`, which does not exist: copy it along with the model, or export as one .glb", file.display())]
+    MissingPart {
+        /// The model file.
+        file: PathBuf,
+        /// As the model has it.
+        uri: String,
+    },
+}
+
+/// A file of a model, open.
+#[derive(Debug)]
+pub struct Opened {
+    file: File,
+    length: u64,
+    called: PathBuf,
+}
+
+impl Opened {
+    /// All of its bytes.
+    ///
+    /// # Errors
+    /// What the system says.
+    pub fn bytes(self) -> Result<Vec<u8>, FileError> {
+        self.read(|file| {
+            let mut bytes = Vec::new();
+            file.read_to_end(&mut bytes).map(|_| bytes)
+        })
+    }
+
+    /// What `work` makes of its bytes.
+    ///
+    /// # Errors
+    /// What the system says.
+    pub fn read<T>(
+        self,
+        work: impl FnOnce(&mut BufReader<std::io::Take<File>>) -> std::io::Result<T>,
+    ) -> Result<T, FileError> {
+        let Self {
+            file,
+            length,
+            called,
+        } = self;
+        let mut file = BufReader::with_capacity(1 << 16, file.take(length));
+        work(&mut file).map_err(|source| FileError::Read {
+            file: called,
+            source,
+        })
+    }
+}
+
+impl ModelFiles {
+    /// Opens the model file itself.
+    ///
+    /// # Errors
+    /// When it is not there, no file, or too large.
+    pub fn open(path: &Path, may_read: &[&Path]) -> Result<(Self, Opened), FileError> {
+        let canonical = path.canonicalize().map_err(|source| match source.kind() {
+            ErrorKind::NotFound => FileError::Missing {
+                file: path.to_owned(),
+            },
+            _ => FileError::Read {
+                file: path.to_owned(),
+                source,
+            },
+        })?;
+        let folder = canonical.parent().unwrap_or(Path::new("/")).to_owned();
+        let mut allowed = vec![folder.clone()];
+        // The folder of a path without one is the one that we are in.
+        let named = |folder: &Path| match folder.components().next() {
+            None => Path::new(".").canonicalize(),
+            Some(_) => folder.canonicalize(),
+        };
+        allowed.extend(may_read.iter().filter_map(|folder| named(folder).ok()));
+        let model = path.to_owned();
+        let mut files = Self {
+            model,
+            folder,
+            may_read: allowed,
+            bytes_left: MODEL_BYTES,
+        };
+        let opened = files.opened(&canonical, path)?;
+        Ok((files, opened))
+    }
+
+    /// Opens a file that the model names, relative to the model's folder.
+    ///
+    /// # Errors
+    /// When the model may not read it, or it is not there, no file, or too large.
+    pub fn part(&mut self, name: &str) -> Result<Opened, FileError> {
+        let has_scheme = name.split_once(':').is_some_and(|(scheme, _)| {
+            scheme.starts_with(|c: char| c.is_ascii_alphabetic())
+                && scheme
+                    .chars()
+                    .all(|c| c.is_ascii_alphanumeric() || "+.-".contains(c))
+        });
+        if has_scheme || name.starts_with(['/', '\\']) {
+            return Err(self.bad_uri(name, "absolute or remote"));
+        }
+        let outside = || FileError::Outside {
+            file: self.model.clone(),
+            uri: shorten(name),
+        };
+        // By the letters first, so that the message does not tell what exists elsewhere.
+        if !self.allows(&lexical(&self.folder.join(name))) {
+            return Err(outside());
+        }
+        let canonical =
+            self.folder
+                .join(name)
+                .canonicalize()
+                .map_err(|_| FileError::MissingPart {
+                    file: self.model.clone(),
+                    uri: shorten(name),
+                })?;
+        if !self.allows(&canonical) {
+            return Err(outside());
+        }
+        self.opened(&canonical, Path::new(name))
+    }
+
+    /// Opens a file that a glTF file names by a URI, percent-encoded.
+    ///
+    /// # Errors
+    /// As [`ModelFiles::part`].
+    pub fn part_by_uri(&mut self, uri: &str) -> Result<Opened, FileError> {
+        match urlencoding::decode(uri) {
+            Ok(name) => self.part(&name),
+            Err(_) => Err(self.bad_uri(uri, "not valid percent-encoded text")),
+        }
+    }
+
+    /// Opens the material library of an `mtllib` line: the file of that name or, since names may
+    /// hold blanks and a line may hold names, its words. Those that are not there are passed over.
+    ///
+    /// # Errors
+    /// As [`ModelFiles::part`], but for missing files.
+    pub fn libraries(&mut self, name: &str) -> Result<Vec<(String, Opened)>, FileError> {
+        if let Some(whole) = found(self.part(name))? {
+            return Ok(vec![(name.to_owned(), whole)]);
+        }
+        let mut libraries = Vec::new();
+        for word in name.split_whitespace() {
+            if let Some(opened) = found(self.part(word))? {
+                libraries.push((word.to_owned(), opened));
+            }
+        }
+        Ok(libraries)
+    }
+
+    /// The error for a file name that cannot be used.
+    pub fn bad_uri(&self, uri: &str, problem: &'static str) -> FileError {
+        FileError::Uri {
+            file: self.model.clone(),
+            uri: shorten(uri),
+            problem,
+        }
+    }
+
+    fn allows(&self, path: &Path) -> bool {
+        self.may_read.iter().any(|folder| path.starts_with(folder))
+    }
+
+    fn opened(&mut self, canonical: &Path, called: &Path) -> Result<Opened, FileError> {
+        let failed = |source| FileError::Read {
+            file: called.to_owned(),
+            source,
+        };
+        let about = fs::metadata(canonical).map_err(failed)?;
+        if !about.is_file() {
+            return Err(FileError::NotAFile {
+                file: called.to_owned(),
+            });
+        }
+        let length = about.len();
+        self.bytes_left = self
+            .bytes_left
+            .checked_sub(length)
+            .ok_or(FileError::TooLarge {
+                file: self.model.clone(),
+                bytes: MODEL_BYTES - self.bytes_left + length,
+                limit: MODEL_BYTES,
+            })?;
+        Ok(Opened {
+            file: File::open(canonical).map_err(failed)?,
+            length,
+            called: called.to_owned(),
+        })
+    }
+}
+
+/// None where the model names a file that is not there.
+fn found(opened: Result<Opened, FileError>) -> Result<Option<Opened>, FileError> {
+    match opened {
+        Err(FileError::MissingPart { .. }) => Ok(None),
+        opened => opened.map(Some),
+    }
+}
+
+/// The path with `.` and `..` taken out by the letters, links not followed.
+fn lexical(path: &Path) -> PathBuf {
+    let mut out = PathBuf::new();
+    for part in path.components() {
+        match part {
+            Component::CurDir => {}
+            Component::ParentDir => {
+                out.pop();
+            }
+            other => out.push(other),
+        }
+    }
+    out
+}
+
+fn shorten(uri: &str) -> String {
+    match uri.char_indices().nth(SHOWN_URI) {
+        Some((end, _)) => format!("{}…", &uri[..end]),
+        None => uri.to_owned(),
+    }
+}

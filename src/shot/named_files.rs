@@ -1,0 +1,51 @@
+//! The files that a shot names.
+
+use super::{Shot, SpectrumTable, SpectrumValue, Stars};
+use std::path::{Path, PathBuf};
+
+impl Shot {
+    /// A path of the shot, which is relative to the shot file.
+    pub fn beside(&self, file: &Path) -> PathBuf {
+        self.path
+            .parent()
+            .map_or_else(|| file.to_owned(), |folder| folder.join(file))
+    }
+
+    /// Every spectrum table, with its key; a file that one names is read from here.
+    pub fn spectrum_tables(&self) -> Vec<(String, &SpectrumTable)> {
+        let mut values: Vec<(String, &Option<SpectrumValue>)> = Vec::new();
+        for (name, material) in &self.material {
+            let terms = material.spectra();
+            values.extend(terms.map(|(term, value)| (format!("material.{name}.{term}"), value)));
+        }
+        for (i, light) in self.light.iter().enumerate() {
+            values.push((format!("light[{i}].spectrum"), &light.spectrum));
+        }
+        values.push(("background.spectrum".to_owned(), &self.background.spectrum));
+        let inline = values.into_iter().filter_map(|(key, value)| match value {
+            Some(SpectrumValue::Table(table)) => Some((key, &**table)),
+            _ => None,
+        });
+        let named = self
+            .spectrum
+            .iter()
+            .map(|(name, table)| (format!("spectrum.{name}"), table));
+        inline.chain(named).collect()
+    }
+
+    /// The files that it names beside those of models, each with its key: spectra, sky, stars.
+    pub fn data_files(&self) -> Vec<(String, &Path)> {
+        let tables = self.spectrum_tables().into_iter();
+        let tables =
+            tables.filter_map(|(key, table)| Some((format!("{key}.file"), table.file.as_deref()?)));
+        let image = self.background.image.as_deref();
+        let image = image.map(|file| ("background.image".to_owned(), file));
+        let stars = match &self.background.stars {
+            Some(Stars::Catalogue(stars)) => {
+                Some(("background.stars.file".to_owned(), stars.file.as_path()))
+            }
+            Some(Stars::Random(_)) | None => None,
+        };
+        tables.chain(image).chain(stars).collect()
+    }
+}

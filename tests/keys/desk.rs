@@ -1,0 +1,60 @@
+//! A folder with a shot and its files, for the tests beside.
+
+use restframe::plan::{Digests, FrameKey, Keys, Picture};
+use restframe::shot::{Shot, parse};
+use std::path::PathBuf;
+use tempfile::TempDir;
+
+/// Two triangles and a slanted third, of two materials.
+const MODEL: &str = "mtllib paints.mtl\nv -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nv 0 0 1\n\
+    usemtl wall\nf 1 2 3 4\nusemtl roof\nf 1 2 5\n";
+const PAINTS: &str = "newmtl wall\nKd 0.8 0.2 0.1\nnewmtl roof\nKd 0.1 0.7 0.2\nKe 0 0.1 0\n";
+
+/// The folder.
+pub(crate) struct Desk(pub(crate) TempDir);
+
+impl Desk {
+    pub(crate) fn new() -> Self {
+        let desk = Self(tempfile::tempdir().unwrap());
+        desk.put("house.obj", MODEL);
+        desk.put("paints.mtl", PAINTS);
+        desk.put("paint.csv", "400,0\n500,0.5\n600,1\n");
+        desk.put("stars.csv", "0,0,6000,1\n90,10,9000,2\n");
+        desk
+    }
+
+    pub(crate) fn path(&self, name: &str) -> PathBuf {
+        self.0.path().join(name)
+    }
+
+    pub(crate) fn put(&self, name: &str, text: impl AsRef<[u8]>) {
+        std::fs::write(self.path(name), text).unwrap();
+    }
+
+    /// A shot of this text in the folder.
+    pub(crate) fn shot(&self, text: &str) -> Shot {
+        match parse(text, &self.path("shot.toml")) {
+            Ok(shot) => shot,
+            Err(mistakes) => panic!("{mistakes}\n{text}"),
+        }
+    }
+
+    /// The keys of its frames at the size that it names.
+    pub(crate) fn keys(&self, text: &str) -> Keys {
+        let shot = self.shot(text);
+        let digests = Digests::read(&shot).unwrap();
+        let picture = Picture {
+            size: shot.image.size,
+            samples: shot.image.samples,
+        };
+        Keys::new(shot, digests, picture)
+    }
+
+    /// All of a shot's keys.
+    pub(crate) fn all(&self, text: &str) -> Vec<FrameKey> {
+        let keys = self.keys(text);
+        (1..=keys.shot().shot.frames)
+            .map(|frame| keys.frame(frame))
+            .collect()
+    }
+}

@@ -1,0 +1,175 @@
+//! Hashes of files: every file that a shot reads counts, and each byte of it.
+
+use super::desk::Desk;
+use restframe::plan::Digests;
+
+const SHOT: &str = r#"
+[[model]]
+file = "house.obj"
+material = "painted"
+[[model]]
+file = "parts.gltf"
+material = "painted"
+[[model]]
+file = "whole.glb"
+material = "painted"
+[[model]]
+name = "again"
+file = "house.obj"
+material = "painted"
+[material.painted]
+diffuse = { spectrum = { file = "paint.csv" } }
+[spectrum.unused]
+file = "unused.csv"
+[background]
+image = "sky.png"
+stars = { file = "stars.csv" }
+[camera]
+position = [0, 0, 5]
+"#;
+
+fn desk() -> Desk {
+    let desk = Desk::new();
+    desk.put("unused.csv", "400,0\n500,0.5\n");
+    desk.put("sky.png", "no picture, but a file of some bytes");
+    let json = r#"{"asset":{"version":"2.0"},"buffers":[{"byteLength":3,"uri":"some%20parts.bin"},
+        {"byteLength":3,"uri":"data:application/octet-stream;base64,AAAA"}],
+        "images":[{"uri":"painting.png"}]}"#;
+    desk.put("parts.gltf", json);
+    desk.put("some parts.bin", [1, 2, 3]);
+    desk.put("painting.png", "a picture that nobody reads");
+    desk.put("whole.glb", glb(r#"{"asset":{"version":"2.0"},"buffers":[{"byteLength":4},{"byteLength":3,"uri":"far.bin"}]} "#));
+    desk.put("far.bin", [4, 5, 6]);
+    desk
+}
+
+/// A glb file of this JSON and four more bytes.
+fn glb(json: &str) -> Vec<u8> {
+    let mut json = json.as_bytes().to_vec();
+    json.resize(json.len().next_multiple_of(4), b' ');
+    let mut bytes = b"glTF\x02\x00\x00\x00".to_vec();
+    bytes.extend((12 + 8 + json.len() as u32 + 8 + 4).to_le_bytes());
+    bytes.extend((json.len() as u32).to_le_bytes());
+    bytes.extend(b"JSON");
+    bytes.extend(json);
+    bytes.extend(4_u32.to_le_bytes());
+    bytes.extend(b"BIN\0");
+    bytes.extend([7, 8, 9, 10]);
+    bytes
+}
+
+fn digests(desk: &Desk) -> Digests {
+    Digests::read(&desk.shot(SHOT)).unwrap()
+}
+
+#[test]
+fn hashes_are_blake3_of_whole_files_and_each_file_has_one() {
+    let desk = desk();
+    let digests = digests(&desk);
+    let found: Vec<(String, &str)> = digests.iter().collect();
+    let mut names: Vec<&str> = found.iter().map(|(name, _)| name.as_str()).collect();
+    names.sort_unstable();
+    let expected = [
+        "far.bin",
+        "house.obj",
+        "paint.csv",
+        "paints.mtl",
+        "parts.gltf",
+        "sky.png",
+        "some%20parts.bin",
+        "stars.csv",
+        "unused.csv",
+        "whole.glb",
+    ];
+    assert_eq!(names, expected);
+    for (name, hash) in found {
+        let bytes = std::fs::read(desk.path(&name.replace("%20", " "))).unwrap();
+        assert_eq!(hash, blake3::hash(&bytes).to_hex().as_str(), "{name}");
+    }
+}
+
+#[test]
+fn one_byte_of_any_file_changes_its_hash_alone() {
+    let desk = desk();
+    let before = digests(&desk);
+    for (name, _) in before.iter() {
+        let path = desk.path(&name.replace("%20", " "));
+        let bytes = std::fs::read(&path).unwrap();
+        let mut changed = bytes.clone();
+        *changed.last_mut().unwrap() ^= 1;
+        std::fs::write(&path, &changed).unwrap();
+        let after = digests(&desk);
+        let differ = before.iter().zip(after.iter()).filter(|(a, b)| a != b);
+        let names: Vec<String> = differ.map(|((name, _), _)| name).collect();
+        assert_eq!(names, [name]);
+        std::fs::write(&path, &bytes).unwrap();
+    }
+    // What nobody reads does not count.
+    desk.put("painting.png", "another");
+    assert_eq!(digests(&desk), before);
+}
+
+#[test]
+fn material_libraries_are_found_as_the_loader_finds_them() {
+    for (line, expected) in [
+        ("mtllib paints.mtl", 1),
+        ("  mtllib\tpaints.mtl  \r", 1),
+        ("mtllib paints.mtl more.mtl none.mtl", 2),
+        ("mtllib my paints.mtl", 1),
+        ("mtllib \\\npaints.mtl", 1),
+        ("mtllib none.mtl", 0),
+        ("# mtllib paints.mtl", 0),
+    ] {
+        let desk = Desk::new();
+        desk.put("more.mtl", "newmtl x\n");
+        desk.put("my paints.mtl", "newmtl y\n");
+        desk.put(
+            "house.obj",
+            format!("v 0 0 0\nv 1 0 0\nv 0 1 0\n{line}\nf 1 2 3"),
+        );
+        let shot = desk.shot("[[model]]\nfile = \"house.obj\"\n[camera]\n");
+        let digests = Digests::read(&shot).unwrap();
+        assert_eq!(digests.iter().count(), 1 + expected, "{line:?}");
+    }
+}
+
+#[test]
+fn a_part_that_is_not_there_or_not_allowed_is_a_mistake_at_the_model() {
+    for (uri, words) in [
+        ("none.bin", "does not exist"),
+        ("../secret.bin", "outside the folders"),
+        ("/etc/hostname", "absolute or remote"),
+        ("https://example.org/x.bin", "absolute or remote"),
+    ] {
+        let desk = desk();
+        desk.put(
+            "parts.gltf",
+            format!(r#"{{"buffers":[{{"byteLength":3,"uri":"{uri}"}}]}}"#),
+        );
+        let mistakes = Digests::read(&desk.shot(SHOT)).unwrap_err();
+        let mistake = mistakes.iter().next().unwrap();
+        assert_eq!(mistake.key, "model[1].file");
+        assert!(mistake.message.contains(words), "{}", mistake.message);
+        assert_eq!(mistakes.len(), 1);
+    }
+}
+
+#[test]
+fn broken_models_have_hashes_all_the_same() {
+    let desk = desk();
+    for bytes in [
+        &b"glTF"[..],
+        b"",
+        b"glTF\x02\0\0\0\0\0\0\0\xff\xff\xff\xffJSON{",
+        b"{\"buffers\":3}",
+    ] {
+        desk.put("whole.glb", bytes);
+        let digests = digests(&desk);
+        let hash = blake3::hash(bytes).to_hex();
+        assert!(
+            digests
+                .iter()
+                .any(|(name, own)| name == "whole.glb" && own == hash.as_str())
+        );
+    }
+}
