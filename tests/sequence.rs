@@ -4,9 +4,10 @@
     reason = "a test that cannot be set up has failed"
 )]
 
-use restframe::queue::{FrameList, Mode, Prepared, Progress, Request, render_shot};
+use restframe::queue::{Force, FrameList, Job, Mode, Night, Progress, Request, Results};
 use std::fs;
 use std::path::Path;
+use std::sync::atomic::AtomicBool;
 
 const QUAD: &str = "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nusemtl red\nf 1 2 3 4\n";
 
@@ -37,17 +38,24 @@ exposure = 0
 "#;
 
 fn render(shot: &Path, frames: &[u32], out: &Path) {
-    let prepared = Prepared::read(shot).unwrap();
+    let shot = restframe::shot::load(shot).unwrap();
     let request = Request {
         out: out.to_owned(),
         frames: FrameList::all(),
         scale: 1.0,
         samples: None,
     };
-    let (exposing, kept) = prepared.exposure().unwrap();
-    let progress = Progress::new(Mode::None, 1, 1);
-    let failures = render_shot(&prepared, &exposing, &request, frames, kept, &progress);
-    assert!(failures.is_empty());
+    let mut job = Job::open(&shot, &request, frames).unwrap();
+    job.prepare(Force::Yes).unwrap();
+    job.furnish(None);
+    let night = Night {
+        progress: &Progress::new(Mode::None, Results::Nothing),
+        stop: &AtomicBool::new(false),
+        force: Force::Yes,
+    };
+    let mut jobs = [job];
+    night.render(&mut jobs, &|_| ());
+    assert_eq!(jobs[0].missing(), [0; 0]);
 }
 
 #[test]

@@ -1,7 +1,8 @@
 //! The command line: arguments in, messages and an exit code out.
 //!
 //! Results go to standard output, progress and diagnostics to standard error. Exit status: 0
-//! done, 1 something failed while rendering, 2 a mistake in the shot or the call.
+//! done, 1 something failed while rendering, 2 a mistake in the shot or the call, 130 interrupted,
+//! 143 terminated.
 
 mod assemble;
 mod check;
@@ -11,7 +12,7 @@ mod render;
 mod study;
 mod verify;
 
-use crate::queue::{FrameList, Mode};
+use crate::queue::{FrameList, Mode, Shard};
 use crate::shot::{self, Mistakes};
 use clap::{Args, Parser, Subcommand};
 use std::io::{self, IsTerminal, Write};
@@ -73,9 +74,18 @@ struct RenderArguments {
     /// Threads; 0 takes every processor. The images are the same for any number
     #[arg(long, value_name = "N", default_value = "0", value_parser = clap::value_parser!(u16).range(0..=1024), allow_negative_numbers = true)]
     threads: u16,
-    /// How progress is shown: auto is a bar on a terminal and lines elsewhere
+    /// The K-th of N parts of the frames chosen, the same parts on every machine
+    #[arg(long, value_name = "K/N", allow_hyphen_values = true)]
+    shard: Option<Shard>,
+    /// Render finished frames too, whose inputs have not changed
+    #[arg(long)]
+    force: bool,
+    /// How progress is shown on standard error: auto is a bar on a terminal and lines elsewhere
     #[arg(long, value_name = "MODE", value_enum, default_value = "auto")]
     progress: ProgressMode,
+    /// Tell what happens on standard output, one JSON object a line
+    #[arg(long)]
+    json: bool,
 }
 
 #[derive(Debug, Clone, Copy, clap::ValueEnum)]
@@ -83,6 +93,11 @@ enum ProgressMode {
     Auto,
     Bar,
     Plain,
+    /// JSON, one object a line
+    Json,
+    /// Lines on standard output as Open Job Description has them
+    #[value(name = "openjd")]
+    OpenJd,
     None,
 }
 
@@ -92,6 +107,8 @@ impl From<ProgressMode> for Mode {
             ProgressMode::Auto => Self::Auto,
             ProgressMode::Bar => Self::Bar,
             ProgressMode::Plain => Self::Plain,
+            ProgressMode::Json => Self::Json,
+            ProgressMode::OpenJd => Self::OpenJd,
             ProgressMode::None => Self::None,
         }
     }

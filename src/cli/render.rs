@@ -1,26 +1,37 @@
 //! `restframe render`.
 
-use super::{Failed, RenderArguments, failed, mistaken, misused, say};
+use super::{FAILURE, Failed, ProgressMode, RenderArguments, failed, mistaken, misused, say};
 use crate::queue::{
-    Exposing, FrameList, Prepared, Progress, Request, Resolved, options, render_shot,
+    Force, FrameList, Job, Night, Prepared, Progress, ReelError, Request, Resolved, Results, Stop,
+    choose_shard, list_of,
 };
-use crate::shot::LARGEST_SIDE;
+use crate::shot::{self, LARGEST_SIDE, Mistakes, Shot};
 use std::collections::HashMap;
+use std::path::Path;
+use std::sync::Arc;
 
-/// Reads all shots before the first is rendered, so that a mistake in the last one shows at once
-/// and not in the morning.
+/// Renders, and tells how it ended, also when it was asked to stop.
 pub(super) fn run(arguments: &RenderArguments) -> Result<(), Failed> {
-    let request = Request {
-        out: arguments.out.clone(),
-        frames: arguments.frames.clone().unwrap_or_else(FrameList::all),
-        scale: arguments.scale,
-        samples: arguments.samples,
+    let results = match (arguments.json, arguments.progress) {
+        (true, ProgressMode::OpenJd) => {
+            return Err(misused(
+                "--json and --progress openjd both write to standard output: choose one",
+            ));
+        }
+        (true, _) => Results::Events,
+        (false, _) => Results::Nothing,
     };
-    pool(arguments.threads)?.install(|| {
-        let shots = read_all(arguments)?;
-        let work = plan_work(&shots, &request)?;
-        render_all(&shots, &work, &request, arguments)
-    })
+    let progress = Arc::new(Progress::new(arguments.progress.into(), results));
+    let late = Arc::clone(&progress);
+    let stop = Stop::listen(move |status| late.end(status))
+        .map_err(|error| failed(&format!("cannot listen to signals: {error}")))?;
+    let done = pool(arguments.threads)?.install(|| render(arguments, &progress, &stop));
+    let done = match stop.status() {
+        Some(status) => Err(Failed(status)),
+        None => done,
+    };
+    progress.end(done.as_ref().map_or_else(|Failed(status)| *status, |()| 0));
+    done
 }
 
 /// So many threads; 0 for one a processor.
@@ -31,122 +42,191 @@ pub(super) fn pool(threads: u16) -> Result<rayon::ThreadPool, Failed> {
         .map_err(|error| failed(&error.to_string()))
 }
 
-fn read_all(arguments: &RenderArguments) -> Result<Vec<Prepared>, Failed> {
-    let mut shots = Vec::new();
-    let mut wrong = None;
-    for path in &arguments.shots {
-        match Prepared::read(path) {
-            Ok(prepared) => shots.push(prepared),
-            Err(mistakes) => wrong = Some(mistaken(&mistakes)),
+/// Reads all shots before the first is rendered, so that a mistake in the last one shows at once
+/// and not in the morning.
+fn render(arguments: &RenderArguments, progress: &Progress, stop: &Stop) -> Result<(), Failed> {
+    let request = Request {
+        out: arguments.out.clone(),
+        frames: arguments.frames.clone().unwrap_or_else(FrameList::all),
+        scale: arguments.scale,
+        samples: arguments.samples,
+    };
+    let force = if arguments.force {
+        Force::Yes
+    } else {
+        Force::No
+    };
+    let (mut jobs, closed) = read(arguments, &request, force, progress)?;
+    for job in &mut jobs {
+        job.furnish(arguments.shard);
+    }
+    let night = Night {
+        progress,
+        stop: stop.asked(),
+        force,
+    };
+    night.render(&mut jobs, &|_job| ());
+    let missing = missing(&jobs);
+    match missing {
+        _ if stop.status().is_some() => Ok(()),
+        None if closed == Closed::None => Ok(()),
+        None => Err(Failed(FAILURE)),
+        Some(missing) => {
+            progress.error(&missing);
+            Err(Failed(FAILURE))
         }
-    }
-    for prepared in &shots {
-        warn(prepared);
-    }
-    match wrong.or_else(|| same_folder(&shots)) {
-        Some(wrong) => Err(wrong),
-        None => Ok(shots),
     }
 }
 
+/// The jobs of the call, and whether there are folders that cannot be read. Every mistake of every
+/// shot is told.
+fn read(
+    arguments: &RenderArguments,
+    request: &Request,
+    force: Force,
+    progress: &Progress,
+) -> Result<(Vec<Job>, Closed), Failed> {
+    let mut wrong = None;
+    let loaded = arguments.shots.iter().map(|path| shot::load(path));
+    let shots = sound(loaded, &mut wrong);
+    if let Some(misused) = same_folder(&shots) {
+        return Err(misused);
+    }
+    let chosen = shots
+        .iter()
+        .map(|shot| choose(shot, request, progress))
+        .collect::<Result<Vec<_>, Failed>>()?;
+    let open = |(shot, frames): (&Shot, Vec<u32>)| open(shot, request, &frames, progress);
+    let opened = sound(shots.iter().zip(chosen).map(open), &mut wrong);
+    let all = opened.len();
+    let mut jobs: Vec<Job> = opened.into_iter().flatten().collect();
+    let closed = if jobs.len() < all {
+        Closed::Some
+    } else {
+        Closed::None
+    };
+    if let Some(shard) = arguments.shard {
+        choose_shard(&mut jobs, shard);
+    }
+    sound(jobs.iter_mut().map(|job| job.prepare(force)), &mut wrong);
+    for prepared in jobs.iter().filter_map(Job::prepared) {
+        for warning in warnings(prepared) {
+            progress.warn(&warning);
+        }
+    }
+    wrong.map_or(Ok((jobs, closed)), Err)
+}
+
+/// How many folders cannot be read.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Closed {
+    None,
+    Some,
+}
+
+/// What has no mistakes; those of the others are told.
+fn sound<T>(
+    answers: impl Iterator<Item = Result<T, Mistakes>>,
+    wrong: &mut Option<Failed>,
+) -> Vec<T> {
+    answers
+        .filter_map(|answer| answer.map_err(|m| *wrong = Some(mistaken(&m))).ok())
+        .collect()
+}
+
 /// Two shots whose images would have the same names.
-fn same_folder(shots: &[Prepared]) -> Option<Failed> {
+fn same_folder(shots: &[Shot]) -> Option<Failed> {
     let mut seen = HashMap::new();
-    shots.iter().find_map(|prepared| {
-        let path = prepared.shot.path.display().to_string();
-        let other = seen.insert(prepared.stem(), path.clone())?;
+    shots.iter().find_map(|shot| {
+        let path = shot.path.display().to_string();
+        let other = seen.insert(shot.path.file_stem(), path.clone())?;
         Some(misused(&format!(
             "{other} and {path} would write the same images; rename one, or render them apart with --out"
         )))
     })
 }
 
-/// What the shot's files ask for and the picture will not show.
-pub(super) fn warn(prepared: &Prepared) {
-    let mut seen: Vec<(&std::path::Path, String)> = Vec::new();
-    for warning in prepared.library.warnings(&prepared.shot) {
-        if !seen.contains(&warning) {
-            say(&format!("warning: {}: {}", warning.0.display(), warning.1));
-            seen.push(warning);
+/// The job of a shot, if its folder can be read.
+fn open(
+    shot: &Shot,
+    request: &Request,
+    frames: &[u32],
+    progress: &Progress,
+) -> Result<Option<Job>, Mistakes> {
+    match Job::open(shot, request, frames) {
+        Ok(job) => Ok(Some(job)),
+        Err(ReelError::Mistakes(mistakes)) => Err(*mistakes),
+        Err(error @ ReelError::Folder { .. }) => {
+            let path = shot.path.display();
+            progress.error(&format!("{path}: {error}"));
+            Ok(None)
         }
     }
 }
 
-fn plan_work(shots: &[Prepared], request: &Request) -> Result<Vec<Vec<u32>>, Failed> {
-    shots
-        .iter()
-        .map(|prepared| {
-            let frames = prepared.shot.shot.frames;
-            let Resolved {
-                frames: chosen,
-                outside,
-            } = request.frames.resolve(frames);
-            let path = prepared.shot.path.display();
-            check_scale(prepared, request)?;
-            if chosen.is_empty() {
-                return Err(misused(&format!(
-                    "{path} has frames 1 to {frames}; none was chosen"
-                )));
-            }
-            if outside > 0 {
-                say(&format!(
-                    "warning: {path} has frames 1 to {frames}; {outside} others are left out"
-                ));
-            }
-            Ok(chosen)
-        })
-        .collect()
+/// The frames asked for that a shot has.
+fn choose(shot: &Shot, request: &Request, progress: &Progress) -> Result<Vec<u32>, Failed> {
+    let frames = shot.shot.frames;
+    let Resolved {
+        frames: chosen,
+        outside,
+    } = request.frames.resolve(frames);
+    let path = shot.path.display();
+    check_scale(shot, request)?;
+    if chosen.is_empty() {
+        return Err(misused(&format!(
+            "{path} has frames 1 to {frames}; none was chosen"
+        )));
+    }
+    if outside > 0 {
+        progress.warn(&format!(
+            "{path} has frames 1 to {frames}; {outside} others are left out"
+        ));
+    }
+    Ok(chosen)
+}
+
+/// Says what the shot's files ask for and the picture will not show.
+pub(super) fn warn(prepared: &Prepared) {
+    for warning in warnings(prepared) {
+        say(&format!("warning: {warning}"));
+    }
+}
+
+/// What the shot's files ask for and the picture will not show, each once.
+fn warnings(prepared: &Prepared) -> Vec<String> {
+    let mut seen: Vec<(&Path, String)> = Vec::new();
+    for warning in prepared.library.warnings(&prepared.shot) {
+        if !seen.contains(&warning) {
+            seen.push(warning);
+        }
+    }
+    let line = |(file, warning): (&Path, String)| format!("{}: {warning}", file.display());
+    seen.into_iter().map(line).collect()
 }
 
 /// A scale that makes an image larger than any may be.
-pub(super) fn check_scale(prepared: &Prepared, request: &Request) -> Result<(), Failed> {
-    let [width, height] = prepared
-        .shot
-        .image
-        .size
-        .map(|side| f64::from(side) * request.scale);
+pub(super) fn check_scale(shot: &Shot, request: &Request) -> Result<(), Failed> {
+    let [width, height] = shot.image.size.map(|side| f64::from(side) * request.scale);
     if width.max(height).round() <= f64::from(LARGEST_SIDE) {
         return Ok(());
     }
     Err(misused(&format!(
         "--scale {} makes {width:.0} x {height:.0} pixels of {}; a side has at most {LARGEST_SIDE}",
         request.scale,
-        prepared.shot.path.display()
+        shot.path.display()
     )))
 }
 
-fn render_all(
-    shots: &[Prepared],
-    work: &[Vec<u32>],
-    request: &Request,
-    arguments: &RenderArguments,
-) -> Result<(), Failed> {
-    let rays = |(prepared, frames): (&Prepared, &Vec<u32>)| {
-        let options = options(&prepared.shot, request);
-        let pixels = u64::from(options.width) * u64::from(options.height);
-        pixels * u64::from(options.samples) * frames.len() as u64
+/// Which frames are not there.
+fn missing(jobs: &[Job]) -> Option<String> {
+    let lists = jobs.iter().map(|job| (job, job.missing()));
+    let lists: Vec<_> = lists.filter(|(_, frames)| !frames.is_empty()).collect();
+    let count: usize = lists.iter().map(|(_, frames)| frames.len()).sum();
+    let (s, are) = if count == 1 { ("", "is") } else { ("s", "are") };
+    let list = |(job, frames): &(&Job, Vec<u32>)| {
+        format!("{} {}", job.reel.shot().path.display(), list_of(frames))
     };
-    let total = shots.iter().zip(work).map(rays).sum();
-    let frames = work.iter().map(|frames| frames.len() as u64).sum();
-    let progress = Progress::new(arguments.progress.into(), total, frames);
-    let mut failures = 0;
-    for (prepared, frames) in shots.iter().zip(work) {
-        let (exposing, kept) = prepared.exposure().map_err(|m| mistaken(&m))?;
-        let path = prepared.shot.path.display();
-        if matches!(exposing, Exposing::Black) {
-            progress.note(&format!(
-                "warning: {path}: frame 1 is black, so exposure is 0 stops; give sensor.exposure"
-            ));
-        }
-        for (frame, error) in render_shot(prepared, &exposing, request, frames, kept, &progress) {
-            progress.note(&format!("error: {path}: frame {frame}: {error}"));
-            failures += 1;
-        }
-    }
-    progress.finish();
-    match failures {
-        0 => Ok(()),
-        1 => Err(failed("1 frame is missing")),
-        n => Err(failed(&format!("{n} frames are missing"))),
-    }
+    let list: Vec<String> = lists.iter().map(list).collect();
+    (count > 0).then(|| format!("{count} frame{s} {are} missing: {}", list.join("; ")))
 }

@@ -105,7 +105,7 @@ fn size(prepared: &Prepared, arguments: &StudyArguments) -> Result<Options, Fail
         scale,
         samples: Some(samples),
     };
-    check_scale(prepared, &request)?;
+    check_scale(shot, &request)?;
     Ok(Options {
         layers: Vec::new(),
         ..options(shot, &request)

@@ -13,7 +13,7 @@
 //! are compressed on the calling thread: the encoder would otherwise start threads of its own
 //! beside those that were asked for.
 
-use super::{Channels, Developed, EncodeError, Layers, Metadata, check_length};
+use super::{Channels, Developed, EncodeError, FINGERPRINT, Layers, Metadata, check_length};
 use ::exr::meta::attribute::Chromaticities;
 use ::exr::prelude::*;
 use std::io::Cursor;
@@ -141,7 +141,7 @@ fn attributes(metadata: &Metadata) -> LayerAttributes {
 }
 
 /// The attributes that OpenEXR has no field for.
-fn free_attributes(metadata: &Metadata) -> [(&'static str, Option<AttributeValue>); 11] {
+fn free_attributes(metadata: &Metadata) -> [(&'static str, Option<AttributeValue>); 12] {
     use AttributeValue::{F64, FloatVec2, FloatVec3, I32, Text, TextVector};
     let whole = |value: u32| I32(i32::try_from(value).unwrap_or(i32::MAX));
     let vector = |[x, y, z]: [f64; 3]| FloatVec3((x as f32, y as f32, z as f32));
@@ -164,6 +164,10 @@ fn free_attributes(metadata: &Metadata) -> [(&'static str, Option<AttributeValue
         (
             "restframe:worldlines",
             (!metadata.worldlines.is_empty()).then(names),
+        ),
+        (
+            FINGERPRINT,
+            metadata.fingerprint.as_deref().map(|hash| Text(text(hash))),
         ),
         (
             "restframe:shot",

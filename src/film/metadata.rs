@@ -8,6 +8,9 @@ use super::Channels;
 /// What this program calls itself in files.
 pub const SOFTWARE: &str = concat!("restframe ", env!("CARGO_PKG_VERSION"));
 
+/// Under what name a picture says what it is made of.
+pub const FINGERPRINT: &str = "restframe:fingerprint";
+
 /// The facts written into a file. The names in files are those of each field's sentence.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Metadata {
@@ -48,6 +51,9 @@ pub struct Metadata {
     pub time_s: Option<f64>,
     /// Names of the worldlines in the order of the layer's numbers, `restframe:worldlines`.
     pub worldlines: Vec<String>,
+    /// What the picture is made of, as a hash, `restframe:fingerprint`; read back by
+    /// [`imprint`](super::imprint).
+    pub fingerprint: Option<String>,
     /// The shot as TOML, `restframe:shot`.
     pub shot: Option<String>,
 }

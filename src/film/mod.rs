@@ -12,6 +12,7 @@ pub mod compare;
 mod develop;
 mod expose;
 pub mod exr;
+pub mod imprint;
 mod metadata;
 pub mod plot;
 pub mod png;
@@ -19,7 +20,7 @@ pub mod raster;
 
 pub use develop::{Developed, Development, develop};
 pub use expose::{auto_exposure, luminance_percentile};
-pub use metadata::{Metadata, SOFTWARE};
+pub use metadata::{FINGERPRINT, Metadata, SOFTWARE};
 
 /// A picture as the sensor gathered it.
 #[derive(Debug, Clone, Default, PartialEq)]

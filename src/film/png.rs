@@ -3,7 +3,7 @@
 //! Text that is plain ASCII goes into tEXt, any other into iTXt. pHYs says square pixels of no
 //! particular size.
 
-use super::{Channels, Developed, EncodeError, Metadata, check_length};
+use super::{Channels, Developed, EncodeError, FINGERPRINT, Metadata, check_length};
 
 /// Linear light to 8-bit values: `encode` (the sRGB transfer), clipped to 0 … 1, rounded to
 /// nearest. Three bytes a pixel.
@@ -55,6 +55,7 @@ fn texts(metadata: &Metadata) -> impl Iterator<Item = (&'static str, String)> {
         comments,
         owner,
         worldlines,
+        fingerprint,
         shot,
         ..
     } = metadata;
@@ -84,6 +85,7 @@ fn texts(metadata: &Metadata) -> impl Iterator<Item = (&'static str, String)> {
                 .map(|samples| samples.to_string()),
         ),
         ("restframe:worldlines", names),
+        (FINGERPRINT, fingerprint.clone()),
         ("restframe:shot", shot.clone()),
     ]
     .into_iter()

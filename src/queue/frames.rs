@@ -180,6 +180,16 @@ impl Range {
     }
 }
 
+/// Writes ascending frames as a list that can be read: `1-3,7`.
+pub fn list_of(frames: &[u32]) -> String {
+    let runs = frames.chunk_by(|a, b| a + 1 == *b);
+    let run = |run: &[u32]| match run {
+        [first, .., last] => format!("{first}-{last}"),
+        _ => run.first().map_or_else(String::new, u32::to_string),
+    };
+    runs.map(run).collect::<Vec<_>>().join(",")
+}
+
 /// Reads `FIRST`, `FIRST-`, `FIRST-LAST` or `FIRST..LAST`, the ranges with a step or without.
 fn parse_part(part: &str) -> Result<Range, FrameListError> {
     let unknown = || FrameListError::Unknown {

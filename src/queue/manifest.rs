@@ -3,7 +3,7 @@
 //!
 //! Facts of the clock (seconds, date, host) stand here and not in the pictures, which are the same
 //! bytes whoever renders them. Of several lines on one frame the last holds. Shards write manifests
-//! of their own beside; readers take all.
+//! of their own beside; readers take all, and of each one's last line on a frame the latest.
 
 use super::names::Names;
 use indexmap::IndexMap;
@@ -48,7 +48,7 @@ pub struct Record {
     pub host: String,
     /// Version of this program.
     pub version: String,
-    /// When it was finished, UTC, as RFC 3339 has it.
+    /// When it was finished, UTC, as RFC 3339 has it, to the millisecond.
     pub finished: String,
 }
 
@@ -102,13 +102,16 @@ pub fn read_records(folder: &Path, names: &Names) -> io::Result<BTreeMap<u32, Re
             continue;
         }
         let bytes = fs::read(entry.path())?;
+        let mut own: BTreeMap<u32, Record> = BTreeMap::new();
         for line in bytes.split(|byte| *byte == b'\n') {
-            let Ok(record) = serde_json::from_slice::<Record>(line) else {
-                continue;
-            };
+            if let Ok(record) = serde_json::from_slice::<Record>(line) {
+                own.insert(record.frame, record);
+            }
+        }
+        for (frame, record) in own {
             let newer = |old: &Record| old.finished <= record.finished;
-            if records.get(&record.frame).is_none_or(newer) {
-                records.insert(record.frame, record);
+            if records.get(&frame).is_none_or(newer) {
+                records.insert(frame, record);
             }
         }
     }

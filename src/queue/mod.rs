@@ -1,24 +1,48 @@
 //! The queue: which frames are rendered, how far they have come, and how they reach the disk.
 //!
-//! In: shot files ([`Prepared`]) and the frame list of the command line ([`FrameList`]). Out: files
-//! that are either whole or not there ([`write_atomically`]), and news of the work on standard
-//! error ([`Progress`]). Standard output is never written to.
+//! In: shot files and the frame list of the command line ([`FrameList`]), which make the jobs of a
+//! night ([`Job`]). Out: files that are either whole or not there ([`write_atomically`]), a line of
+//! the manifest for each frame ([`Record`]), and news of the work ([`Progress`]).
+//!
+//! A frame is rendered if its files do not say that they are what they should be ([`Reel`]), by
+//! the one process that holds its claim ([`Claim`]). Which frames are rendered together, in what
+//! order, on how many threads and by how many processes, no byte of a picture tells.
 
+mod bar;
+mod batch;
+mod because;
+mod claim;
+mod deed;
+mod event;
 mod frames;
+mod job;
+mod ledger;
+mod machine;
 mod manifest;
 mod names;
+mod night;
 mod picture;
 mod progress;
+mod record;
 mod reel;
+mod shard;
 mod shifts;
 mod shots;
+mod signals;
+mod work;
 mod write;
 
-pub use frames::{FrameList, FrameListError, Resolved};
+pub use claim::Claim;
+pub use deed::Deed;
+pub use frames::{FrameList, FrameListError, Resolved, list_of};
+pub use job::{Force, Job, choose_shard};
 pub use manifest::{FileRecord, Record, Seconds, read_records};
-pub use names::Names;
-pub use picture::{Pictures, pictures};
-pub use progress::{Mode, Progress};
-pub use reel::{Reel, ReelError, Status};
-pub use shots::{Exposing, Prepared, RenderError, Request, options, render_shot};
+pub use names::{Names, SEQUENCE};
+pub use night::Night;
+pub use picture::{Pictures, Taken, pictures};
+pub use progress::{Mode, Progress, Results};
+pub use reel::{Glance, Reel, ReelError, Status};
+pub use shard::{Shard, ShardError};
+pub use shots::{Exposing, Prepared, RenderError, Request, options};
+pub use signals::Stop;
 pub use write::write_atomically;

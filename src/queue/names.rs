@@ -2,6 +2,9 @@
 
 use crate::shot::Shot;
 
+/// The claim under which a sequence is assembled.
+pub const SEQUENCE: &str = "sequence";
+
 /// The names of one shot's files, all in one folder.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Names {
@@ -22,8 +25,7 @@ impl Names {
 
     /// STEM.0012.png
     pub fn frame(&self, frame: u32, extension: &str) -> String {
-        let digits = self.digits;
-        format!("{}.{frame:0digits$}.{extension}", self.stem)
+        format!("{}.{}.{extension}", self.stem, self.number(frame))
     }
 
     /// The frame's number and extension, if a file name is one of a frame, of any shot length.
@@ -33,6 +35,34 @@ impl Names {
         let whole = number.len() >= 4 && number.bytes().all(|b| b.is_ascii_digit());
         let known = matches!(extension, "png" | "exr");
         (whole && known).then_some((number.parse().ok()?, extension))
+    }
+
+    /// A frame's number as it stands in the names of its files: 0012.
+    pub fn number(&self, frame: u32) -> String {
+        let digits = self.digits;
+        format!("{frame:0digits$}")
+    }
+
+    /// .STEM.locks, the folder of the claims.
+    pub fn locks(&self) -> String {
+        format!(".{}.locks", self.stem)
+    }
+
+    /// Of a file that was being written: the name of the claim under which that was. None if it is
+    /// no such file of this shot.
+    pub fn claim_of_temporary(&self, name: &str) -> Option<String> {
+        let written = name.strip_suffix(".tmp")?;
+        let rest = written.strip_prefix(&self.stem);
+        match rest.and_then(|rest| rest.strip_prefix('.')) {
+            Some(rest) => {
+                let number = rest.split('.').next().unwrap_or_default();
+                let is_frame = number.len() >= 4 && number.bytes().all(|b| b.is_ascii_digit());
+                Some(if is_frame { number } else { SEQUENCE }.to_owned())
+            }
+            None => written
+                .starts_with("index.html.")
+                .then(|| SEQUENCE.to_owned()),
+        }
     }
 
     /// STEM.manifest.jsonl, or STEM.manifest.K-N.jsonl of a shard.

@@ -4,6 +4,7 @@ use crate::film::{self, EncodeError, Film, Metadata, develop, exr};
 use crate::render::development;
 use crate::scene::Scene;
 use crate::shot::{Depth, Exposure, Format, Sensor, Sequence, Shot, Track};
+use crate::trace::Stage;
 
 /// The files of a frame: extension and content, and how many values had to be clamped.
 pub struct Pictures {
@@ -11,9 +12,23 @@ pub struct Pictures {
     pub files: Vec<(&'static str, Vec<u8>)>,
     /// Values beyond what a file can hold.
     pub saturated: u64,
+    /// What could not be drawn, and why.
+    pub warnings: Vec<String>,
 }
 
-/// Develops a film and encodes it in the shot's formats.
+/// How a film was taken, beside what the shot says.
+#[derive(Debug, Clone, Copy)]
+pub struct Taken<'a> {
+    /// Exposure, stops.
+    pub exposure_stops: f64,
+    /// Samples a pixel.
+    pub samples: u32,
+    /// [`FrameKey::fingerprint`](crate::plan::FrameKey), for pictures that are to be known again.
+    pub fingerprint: Option<&'a str>,
+}
+
+/// Develops a film and encodes it in the shot's formats. What insets show is looked up in the
+/// `scene` and on the `stage` that the film was rendered with.
 ///
 /// # Errors
 /// When an encoder refuses.
@@ -21,20 +36,21 @@ pub fn pictures(
     shot: &Shot,
     frame: u32,
     scene: &Scene,
+    _stage: &Stage,
     film: &Film,
-    exposure_stops: f64,
-    samples: u32,
+    taken: Taken<'_>,
 ) -> Result<Pictures, EncodeError> {
-    let development = development(shot, exposure_stops);
+    let development = development(shot, taken.exposure_stops);
     let developed = develop(film, &development);
     let metadata = Metadata {
         channels: film.channels,
         window_nm: window_nm(&shot.sensor),
-        ..metadata(shot, frame, scene, exposure_stops, samples)
+        ..metadata(shot, frame, scene, taken)
     };
     let (width, height) = (film.width, film.height);
     let mut files = Vec::new();
     let mut saturated = developed.saturated;
+    let warnings = Vec::new();
     for format in &shot.output.formats {
         files.push(match format {
             Format::Png => {
@@ -52,7 +68,11 @@ pub fn pictures(
             }
         });
     }
-    Ok(Pictures { files, saturated })
+    Ok(Pictures {
+        files,
+        saturated,
+        warnings,
+    })
 }
 
 fn exr_depth(depth: Depth) -> exr::Depth {
@@ -62,7 +82,7 @@ fn exr_depth(depth: Depth) -> exr::Depth {
     }
 }
 
-fn metadata(shot: &Shot, frame: u32, scene: &Scene, exposure_stops: f64, samples: u32) -> Metadata {
+fn metadata(shot: &Shot, frame: u32, scene: &Scene, taken: Taken<'_>) -> Metadata {
     let worldline = &scene.worldlines[scene.camera.worldline];
     let camera = worldline.celerity;
     Metadata {
@@ -76,14 +96,15 @@ fn metadata(shot: &Shot, frame: u32, scene: &Scene, exposure_stops: f64, samples
             .camera
             .camera_from_lab(worldline)
             .map(|matrix| matrix.to_cols_array()),
-        exposure_stops: Some(exposure_stops),
-        samples_per_pixel: Some(samples),
+        exposure_stops: Some(taken.exposure_stops),
+        samples_per_pixel: Some(taken.samples),
         frame: Some(frame),
         beta: Some(camera.beta().to_array()),
         lorentz_factor: Some(camera.lorentz_factor()),
         time_s: Some(shot.shot.time.at(frame, shot.shot.frames)),
         worldlines: scene.worldline_names.clone(),
-        shot: Some(still(shot, frame, exposure_stops)),
+        shot: Some(still(shot, frame, taken.exposure_stops)),
+        fingerprint: taken.fingerprint.map(str::to_owned),
         ..Metadata::default()
     }
 }

@@ -1,14 +1,16 @@
-//! How far the work has come, told on standard error.
+//! How far the work has come, told on standard error, and on standard output to programs that ask.
 //!
-//! On a terminal a bar with the time that is left, measured in units of work (the caller's:
-//! pixels times their expected cost, say), so that cheap frames do not fool it. Elsewhere one
-//! plain line for each finished frame, without escapes or carriage returns.
+//! On a terminal a bar with the time that is left. Elsewhere one plain line for each frame, without
+//! escapes or carriage returns. Work is counted in expected cost, in whatever unit the caller likes.
+//! Trouble with the streams is passed over: news of the work must not end the work.
 
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
-use std::io::{self, IsTerminal, Write};
-use std::sync::atomic::{AtomicU64, Ordering};
-use std::sync::{Mutex, PoisonError};
-use std::time::Duration;
+use super::bar::Bar;
+use super::deed::Deed;
+use super::event::{Event, Summary};
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::time::Instant;
 
 /// How progress is told.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
@@ -18,175 +20,361 @@ pub enum Mode {
     Auto,
     /// A bar; plain lines where standard error is no terminal that could show one.
     Bar,
-    /// One line for each finished frame.
+    /// One line for each frame.
     Plain,
+    /// Events on standard error, one object of JSON a line.
+    Json,
+    /// Besides plain lines, those on standard output that Open Job Description asks for.
+    OpenJd,
     /// Nothing but notes.
     None,
 }
 
-/// Progress of one run. Threads may share it. Trouble with standard error is passed over: news
-/// of the work must not end the work.
-pub struct Progress {
-    frames: u64,
-    finished: AtomicU64,
-    sink: Sink,
+/// What standard output is for.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub enum Results {
+    /// Nothing.
+    #[default]
+    Nothing,
+    /// Events, one object of JSON a line.
+    Events,
 }
 
-enum Sink {
-    Bar(ProgressBar),
-    Lines {
-        out: Mutex<Box<dyn Write + Send>>,
-        frames: bool,
-    },
+/// Progress of one run. Threads may share it.
+pub struct Progress {
+    began: Instant,
+    told: Told,
+    results: Results,
+    open_jd: OpenJd,
+    tally: Mutex<Tally>,
+}
+
+/// How standard error is told.
+enum Told {
+    Bar(Bar),
+    Lines,
+    Notes,
+    Events,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum OpenJd {
+    Asked,
+    NotAsked,
+}
+
+#[derive(Default)]
+struct Tally {
+    frames: u64,
+    summary: Summary,
+    /// All work, what is settled of it, and what of frames in work is done.
+    work: f64,
+    settled: f64,
+    in_work: f64,
+    /// The last that Open Job Description was told, per cent.
+    percent: f64,
+    ended: bool,
 }
 
 impl Progress {
-    /// Begins to tell of `frames` frames that are `work` units of work together.
-    pub fn new(mode: Mode, work: u64, frames: u64) -> Self {
-        let bar = matches!(mode, Mode::Auto | Mode::Bar) && bar_can_be_shown();
-        let sink = if bar {
-            Sink::Bar(new_bar(work))
-        } else {
-            lines(Box::new(io::stderr()), mode != Mode::None)
+    /// Begins to tell.
+    pub fn new(mode: Mode, results: Results) -> Self {
+        let bar = matches!(mode, Mode::Auto | Mode::Bar).then(Bar::new);
+        let told = match (mode, bar.flatten()) {
+            (_, Some(bar)) => Told::Bar(bar),
+            (Mode::Json, _) => Told::Events,
+            (Mode::None, _) => Told::Notes,
+            _ => Told::Lines,
         };
         Self {
-            frames,
-            finished: AtomicU64::new(0),
-            sink,
+            began: Instant::now(),
+            told,
+            results,
+            open_jd: match mode {
+                Mode::OpenJd => OpenJd::Asked,
+                _ => OpenJd::NotAsked,
+            },
+            tally: Mutex::default(),
         }
     }
 
-    /// Tells that `work` more units are done.
-    pub fn advance(&self, work: u64) {
-        if let Sink::Bar(bar) = &self.sink {
-            bar.inc(work);
+    /// Tells what there is to do: so many frames of these shots, and the work of those that are to
+    /// be rendered.
+    pub fn start(&self, shots: &[PathBuf], frames: u64, work: f64) {
+        let mut tally = self.tally();
+        (tally.frames, tally.work) = (frames, work);
+        drop(tally);
+        if let Told::Bar(bar) = &self.told {
+            bar.begin();
+        }
+        self.event(&Event::start(shots, frames));
+    }
+
+    /// Tells that `work` more is done of the frames in work.
+    pub fn advance(&self, work: f64) {
+        let mut tally = self.tally();
+        tally.in_work += work;
+        self.show(&mut tally);
+    }
+
+    /// Tells that the frames in work are no longer: what was done of them stands to be done again,
+    /// unless they are settled.
+    pub fn rest(&self) {
+        let mut tally = self.tally();
+        tally.in_work = 0.0;
+    }
+
+    /// Tells that a frame is settled, which was so much work, and what its files are. The plain line
+    /// is `frame 3/49  rendered  1.24 s  name.0003.png  stale because …`, the third of 49 settled.
+    pub fn frame(&self, shot: &Path, (frame, deed): (u32, &Deed), files: &[PathBuf], work: f64) {
+        let mut tally = self.tally();
+        let summary = &mut tally.summary;
+        match deed {
+            Deed::Kept { .. } => summary.kept += 1,
+            Deed::Rendered { .. } => summary.rendered += 1,
+            Deed::Failed { .. } => summary.failed += 1,
+        }
+        let settled = summary.kept + summary.rendered + summary.failed;
+        tally.settled += work;
+        tally.in_work = (tally.in_work - work).max(0.0);
+        let line = line(settled, tally.frames, deed, files);
+        self.show(&mut tally);
+        drop(tally);
+        match &self.told {
+            Told::Bar(bar) => bar.say(line.clone()),
+            Told::Lines => self.say(&line),
+            Told::Notes | Told::Events => {}
+        }
+        if self.open_jd == OpenJd::Asked {
+            write_line(&mut io::stdout().lock(), &format!("openjd_status: {line}"));
+        }
+        self.event(&Event::frame(shot, frame, deed, files));
+    }
+
+    /// Tells that so much work will not be done.
+    pub fn forgo(&self, work: f64) {
+        let mut tally = self.tally();
+        tally.work -= work;
+        self.show(&mut tally);
+    }
+
+    /// Tells something that the pictures' viewer should know; in every mode.
+    pub fn warn(&self, message: &str) {
+        self.note("warning", message);
+        self.event(&Event::Warning { message });
+    }
+
+    /// Tells what keeps frames from being there; in every mode.
+    pub fn error(&self, message: &str) {
+        self.note("error", message);
+        self.event(&Event::Error { message });
+    }
+
+    /// Tells that a file was made of finished frames.
+    pub fn assembled(&self, file: &Path) {
+        if matches!(self.told, Told::Bar(_) | Told::Lines) {
+            self.say(&format!("assembled  {}", file.display()));
+        }
+        self.event(&Event::Assembled { file });
+    }
+
+    /// Tells how it ended, with the exit status of the run; what more is told comes too late.
+    pub fn end(&self, exit: u8) {
+        let Some(summary) = self.summary(exit) else {
+            return;
+        };
+        if let Told::Bar(bar) = &self.told {
+            bar.end();
+        }
+        let Summary {
+            rendered,
+            kept,
+            failed,
+            left,
+            ..
+        } = summary;
+        if exit > 2 && rendered + kept + failed + left == 0 {
+            self.note("stopped", "no frame was begun");
+        } else if exit > 2 {
+            let s = if rendered + kept == 1 { "" } else { "s" };
+            self.note(
+                "stopped",
+                &format!(
+                    "{} frame{s} finished, {} left; the same call goes on from there",
+                    rendered + kept,
+                    left + failed
+                ),
+            );
+        } else if matches!(self.told, Told::Bar(_)) && exit < 2 {
+            self.say(&format!(
+                "{rendered} rendered, {kept} kept, {} missing",
+                left + failed
+            ));
+        }
+        self.event(&Event::Summary(summary));
+    }
+
+    /// How it ended; once.
+    fn summary(&self, exit: u8) -> Option<Summary> {
+        let mut tally = self.tally();
+        if std::mem::replace(&mut tally.ended, true) {
+            return None;
+        }
+        let Summary {
+            rendered,
+            kept,
+            failed,
+            ..
+        } = tally.summary;
+        Some(Summary {
+            left: tally.frames.saturating_sub(rendered + kept + failed),
+            seconds: self.began.elapsed().as_secs_f64(),
+            exit,
+            ..tally.summary
+        })
+    }
+
+    fn tally(&self) -> MutexGuard<'_, Tally> {
+        self.tally.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    fn show(&self, tally: &mut Tally) {
+        let share = tally.share();
+        if let Told::Bar(bar) = &self.told {
+            bar.show(share);
+        }
+        let percent = (share * 100.0).floor();
+        if self.open_jd == OpenJd::Asked && percent > tally.percent {
+            tally.percent = percent;
+            write_line(
+                &mut io::stdout().lock(),
+                &format!("openjd_progress: {percent:.1}"),
+            );
         }
     }
 
-    /// Tells that a frame is finished: what it took and the name of its file. The plain line is
-    /// `frame 3/49  1.24 s  name.0003.png`, the third of 49 to be finished.
-    pub fn frame_finished(&self, took: Duration, name: &str) {
-        let finished = self.finished.fetch_add(1, Ordering::Relaxed) + 1;
-        let count = format!("frame {finished}/{}", self.frames);
-        match &self.sink {
-            Sink::Bar(bar) => bar.set_message(format!("{count}  {name}")),
-            Sink::Lines { frames: true, .. } => {
-                self.note(&format!("{count}  {:.2} s  {name}", took.as_secs_f64()));
+    /// A line of its own, with its kind before it where it is read by people.
+    fn note(&self, kind: &str, message: &str) {
+        if !matches!(self.told, Told::Events) {
+            self.say(&format!("{kind}: {message}"));
+        }
+    }
+
+    fn say(&self, line: &str) {
+        let write = || write_line(&mut io::stderr().lock(), line);
+        match &self.told {
+            Told::Bar(bar) => bar.aside(write),
+            _ => write(),
+        }
+    }
+
+    fn event(&self, event: &Event<'_>) {
+        let (err, out) = (
+            matches!(self.told, Told::Events),
+            self.results == Results::Events,
+        );
+        if err || out {
+            let line = event.line();
+            if err {
+                write_line(&mut io::stderr().lock(), &line);
             }
-            Sink::Lines { .. } => {}
-        }
-    }
-
-    /// Writes a line of its own (a warning, say), above the bar if there is one; in every mode.
-    pub fn note(&self, line: &str) {
-        match &self.sink {
-            Sink::Bar(bar) => bar.suspend(|| write_line(&mut io::stderr(), line)),
-            Sink::Lines { out, .. } => {
-                write_line(
-                    &mut *out.lock().unwrap_or_else(PoisonError::into_inner),
-                    line,
-                );
+            if out {
+                write_line(&mut io::stdout().lock(), &line);
             }
         }
     }
-
-    /// Takes the bar off the screen.
-    pub fn finish(self) {}
 }
 
 impl Drop for Progress {
     fn drop(&mut self) {
-        if let Sink::Bar(bar) = &self.sink {
-            bar.finish_and_clear();
+        if let Told::Bar(bar) = &self.told {
+            bar.end();
         }
     }
 }
 
-fn lines(out: Box<dyn Write + Send>, frames: bool) -> Sink {
-    Sink::Lines {
-        out: Mutex::new(out),
-        frames,
+impl Tally {
+    fn share(&self) -> f64 {
+        let done = (self.settled + self.in_work).min(self.work);
+        if self.work > 0.0 {
+            done / self.work
+        } else {
+            1.0
+        }
     }
+}
+
+fn line(settled: u64, frames: u64, deed: &Deed, files: &[PathBuf]) -> String {
+    let mut line = format!("frame {settled}/{frames}  {}", deed.word());
+    if let Deed::Rendered { seconds, .. } = deed {
+        line += &format!("  {seconds:.2} s");
+    }
+    let name = files.first().and_then(|file| file.file_name());
+    line += &format!("  {}", name.unwrap_or_default().display());
+    match deed {
+        // An error of its own says so.
+        Deed::Failed { .. } => {}
+        deed => line.extend(deed.because().map(|because| format!("  {because}"))),
+    }
+    line
 }
 
 /// The whole line in one call, so that lines of other processes do not come between.
 fn write_line(out: &mut impl Write, line: &str) {
     let _ = out.write_all(format!("{line}\n").as_bytes());
-}
-
-fn bar_can_be_shown() -> bool {
-    let dumb = std::env::var_os("TERM").is_some_and(|term| term == "dumb");
-    io::stderr().is_terminal() && !dumb
-}
-
-fn new_bar(work: u64) -> ProgressBar {
-    const TEMPLATE: &str = "{elapsed} [{wide_bar}] {percent:>3} %  {eta} left  {msg}";
-    const REDRAW: Duration = Duration::from_millis(500);
-    let bar = ProgressBar::with_draw_target(Some(work), ProgressDrawTarget::stderr());
-    let style = ProgressStyle::with_template(TEMPLATE);
-    bar.set_style(
-        style
-            .unwrap_or_else(|_| ProgressStyle::default_bar())
-            .progress_chars("=> "),
-    );
-    bar.enable_steady_tick(REDRAW);
-    bar
+    let _ = out.flush();
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use std::sync::Arc;
 
-    #[derive(Clone, Default)]
-    struct Page(Arc<Mutex<Vec<u8>>>);
-
-    impl Write for Page {
-        fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-            self.0.lock().expect("one thread").extend(bytes);
-            Ok(bytes.len())
-        }
-
-        fn flush(&mut self) -> io::Result<()> {
-            Ok(())
-        }
-    }
-
-    fn told(frames: bool) -> String {
-        let page = Page::default();
-        let sink = lines(Box::new(page.clone()), frames);
-        let progress = Progress {
-            frames: 49,
-            finished: AtomicU64::new(0),
-            sink,
+    #[test]
+    fn the_plain_line_tells_the_deed_and_why() {
+        let files = [PathBuf::from("out/name/name.0003.png")];
+        let rendered = |because: Option<&str>| Deed::Rendered {
+            because: because.map(str::to_owned),
+            seconds: 1.2449,
         };
-        progress.advance(7);
-        progress.frame_finished(Duration::from_millis(1240), "name.0001.png");
-        progress.note("warning: all is black");
-        progress.frame_finished(Duration::from_secs(0), "name.0002.png");
-        progress.finish();
-        let bytes = page.0.lock().expect("one thread").clone();
-        String::from_utf8(bytes).expect("text")
+        assert_eq!(
+            line(3, 49, &rendered(None), &files),
+            "frame 3/49  rendered  1.24 s  name.0003.png"
+        );
+        assert_eq!(
+            line(
+                3,
+                49,
+                &rendered(Some("stale because a is 2, was 1")),
+                &files
+            ),
+            "frame 3/49  rendered  1.24 s  name.0003.png  stale because a is 2, was 1"
+        );
+        assert_eq!(
+            line(1, 1, &Deed::Kept { because: None }, &files),
+            "frame 1/1  kept  name.0003.png"
+        );
     }
 
     #[test]
-    fn plain_progress_is_one_line_for_each_frame() {
-        let expected = "frame 1/49  1.24 s  name.0001.png\n\
-                        warning: all is black\n\
-                        frame 2/49  0.00 s  name.0002.png\n";
-        assert_eq!(told(true), expected);
-    }
-
-    #[test]
-    fn quiet_progress_keeps_the_notes() {
-        assert_eq!(told(false), "warning: all is black\n");
-    }
-
-    #[test]
-    fn the_template_of_the_bar_is_understood() {
-        let bar = new_bar(10);
-        bar.inc(3);
-        assert_eq!((bar.position(), bar.length()), (3, Some(10)));
-        bar.finish_and_clear();
+    fn work_is_counted_once_and_what_is_forgone_not_at_all() {
+        let progress = Progress::new(Mode::None, Results::Nothing);
+        let share = || progress.tally().share();
+        progress.start(&[], 3, 10.0);
+        progress.advance(2.0);
+        assert_eq!(share(), 0.2);
+        let deed = Deed::Rendered {
+            because: None,
+            seconds: 0.0,
+        };
+        progress.frame(Path::new("a.toml"), (1, &deed), &[], 4.0);
+        assert_eq!(share(), 0.4);
+        progress.advance(3.0);
+        progress.rest();
+        assert_eq!(share(), 0.4);
+        progress.forgo(2.0);
+        assert_eq!(share(), 0.5);
+        let summary = progress.summary(0).expect("the first time");
+        assert_eq!((summary.rendered, summary.left), (1, 2));
+        assert!(progress.summary(0).is_none());
     }
 }

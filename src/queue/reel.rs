@@ -1,14 +1,17 @@
 //! A shot's frames in their folder: what each should be made of, and what is there.
 
+use super::because::difference;
 use super::manifest::{Record, read_records};
 use super::names::Names;
 use super::shots::{Request, options};
+use crate::film::imprint;
 use crate::plan::{Digests, FrameKey, Keys, Picture};
 use crate::shot::{Format, Mistakes, Shot};
 use std::collections::BTreeMap;
 use std::fs;
 use std::io;
 use std::path::PathBuf;
+use std::time::SystemTime;
 
 /// A shot's frames and their folder. Reads hashes, no meshes.
 #[derive(Debug)]
@@ -106,51 +109,87 @@ impl Reel {
             .collect()
     }
 
-    /// Whether a frame has to be rendered, judged by the manifests and the files' lengths.
+    /// Whether a frame has to be rendered: by its record, its files' lengths, and what their
+    /// headers say they are made of. Where no record tells, files that say the right thing are
+    /// decoded whole, so that a folder survives without its manifests.
     pub fn status(&self, frame: u32, key: &FrameKey) -> Status {
         let files = self.files(frame);
-        let lengths: Vec<Option<u64>> = files
-            .iter()
-            .map(|name| fs::metadata(self.folder.join(name)).ok().map(|m| m.len()))
-            .collect();
+        let lengths = self.lengths(frame);
         if lengths.iter().all(Option::is_none) {
             return Status::Missing;
         }
         let stale = |because: String| Status::Stale { because };
-        let Some(record) = self.records.get(&frame) else {
-            return stale("no manifest tells what it was made of".to_owned());
-        };
-        if record.fingerprint != key.fingerprint {
-            return stale(difference(&record.parts, &key.parts));
+        let missing = files
+            .iter()
+            .zip(&lengths)
+            .find(|(_, length)| length.is_none());
+        let record = self.records.get(&frame);
+        if let Some(record) = record
+            && record.fingerprint != key.fingerprint
+            && !self.is_of(&files, key)
+        {
+            return stale(difference(&record.parts, key, &record.version));
         }
+        if let Some((name, _)) = missing {
+            return stale(format!("{name} is missing"));
+        }
+        if !self.is_of(&files, key) {
+            return stale(match record {
+                Some(_) => format!("{} is of another run", files.join(" or ")),
+                None => "no manifest tells what it was made of".to_owned(),
+            });
+        }
+        let record = record.filter(|record| record.fingerprint == key.fingerprint);
+        let Some(record) = record else {
+            return self.decoded(&files);
+        };
         for (name, length) in files.iter().zip(lengths) {
-            let written = record.files.iter().find(|file| file.name == *name);
-            match (length, written) {
-                (None, _) => return stale(format!("{name} is missing")),
-                (Some(_), None) => return stale(format!("{name} is of another run")),
-                (Some(length), Some(file)) if length != file.bytes => {
-                    let bytes = file.bytes;
-                    return stale(format!("{name} has {length} bytes, not {bytes}"));
-                }
-                _ => {}
+            let bytes = match record.files.iter().find(|file| file.name == *name) {
+                None => return self.decoded(&files),
+                Some(file) => file.bytes,
+            };
+            if let Some(length) = length.filter(|length| *length != bytes) {
+                return stale(format!("{name} has {length} bytes, not {bytes}"));
             }
         }
         Status::Fresh
     }
+
+    /// What a glance at the folder shows of a frame: it changes when another process writes it.
+    pub fn glance(&self, frame: u32) -> Glance {
+        let look = |name: String| {
+            let data = fs::metadata(self.folder.join(name)).ok()?;
+            Some((data.len(), data.modified().ok()))
+        };
+        Glance(self.files(frame).into_iter().map(look).collect())
+    }
+
+    fn lengths(&self, frame: u32) -> Vec<Option<u64>> {
+        let Glance(files) = self.glance(frame);
+        files.into_iter().map(|file| Some(file?.0)).collect()
+    }
+
+    /// Whether all files that are there say that they are what `key` says.
+    fn is_of(&self, files: &[String], key: &FrameKey) -> bool {
+        files.iter().all(|name| {
+            let path = self.folder.join(name);
+            !path.exists() || imprint::fingerprint(&path).as_ref() == Some(&key.fingerprint)
+        })
+    }
+
+    /// Of files that say the right thing, but that no record tells the lengths of.
+    fn decoded(&self, files: &[String]) -> Status {
+        let size = self.keys.picture().size;
+        let broken = |name: &&String| !imprint::is_whole(&self.folder.join(name), size);
+        match files.iter().find(broken) {
+            None => Status::Fresh,
+            Some(name) => Status::Stale {
+                because: format!("{name} is broken"),
+            },
+        }
+    }
 }
 
-type Parts = indexmap::IndexMap<String, String>;
-
-/// What differs between what a frame was made of and what it should be made of.
-fn difference(was: &Parts, is: &Parts) -> String {
-    let changed = is
-        .iter()
-        .filter(|(key, value)| was.get(*key) != Some(value));
-    let gone = was.keys().filter(|key| !is.contains_key(*key));
-    let names: Vec<&str> = changed
-        .map(|(key, _)| key)
-        .chain(gone)
-        .map(String::as_str)
-        .collect();
-    format!("{} changed", names.join(", "))
-}
+/// The lengths and times of a frame's files.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Glance(Vec<Option<(u64, Option<SystemTime>)>>);

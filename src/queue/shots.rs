@@ -1,17 +1,14 @@
-//! Shots read, checked and rendered, frame after frame.
+//! Shots read and checked, and what is asked of their rendering.
 
 use super::frames::FrameList;
-use super::picture::pictures;
-use super::progress::Progress;
+use super::machine::free_memory_mib;
 use super::shifts::refuse_shifted_numbers;
-use super::write::write_atomically;
 use crate::film::EncodeError;
-use crate::render::{Options, metered_exposure, render};
+use crate::render::{Options, metered_exposure};
 use crate::scene::{Library, Scene};
 use crate::shot::{self, Exposure, Mistakes, Shot};
 use crate::trace::Stage;
 use std::path::{Path, PathBuf};
-use std::time::Instant;
 
 /// A shot without mistakes, and its files.
 pub struct Prepared {
@@ -69,8 +66,17 @@ impl Prepared {
     /// All its mistakes.
     pub fn read(path: &Path) -> Result<Self, Mistakes> {
         let shot = shot::load(path)?;
+        let frames = 1..=shot.shot.frames;
+        Self::new(shot, frames)
+    }
+
+    /// Reads everything a shot names, and resolves the given frames.
+    ///
+    /// # Errors
+    /// All its mistakes.
+    pub fn new(shot: Shot, frames: impl Iterator<Item = u32>) -> Result<Self, Mistakes> {
         let library = Library::load(&shot)?;
-        for frame in 1..=shot.shot.frames {
+        for frame in frames {
             Scene::check(&shot, &library, frame)?;
         }
         refuse_shifted_numbers(&shot)?;
@@ -146,95 +152,15 @@ pub fn options(shot: &Shot, request: &Request) -> Options {
     }
 }
 
-/// Renders the given frames of a shot into `DIR/STEM/STEM.NNNN.*`; goes on after a frame that
-/// fails. Trees are taken over from image to image, first from `kept`. Returns the failures.
-pub fn render_shot(
-    prepared: &Prepared,
-    exposing: &Exposing,
-    request: &Request,
-    frames: &[u32],
-    mut kept: Option<(Scene, Stage)>,
-    progress: &Progress,
-) -> Vec<(u32, RenderError)> {
-    let mut failures = Vec::new();
-    for &frame in frames {
-        let begun = Instant::now();
-        match render_frame(prepared, exposing, request, frame, &mut kept, progress) {
-            Ok(name) => progress.frame_finished(begun.elapsed(), &name),
-            Err(error) => failures.push((frame, error)),
-        }
-    }
-    failures
-}
-
-/// Renders and writes one frame; returns the name of its first file.
-fn render_frame(
-    prepared: &Prepared,
-    exposing: &Exposing,
-    request: &Request,
-    frame: u32,
-    kept: &mut Option<(Scene, Stage)>,
-    progress: &Progress,
-) -> Result<String, RenderError> {
-    let shot = &prepared.shot;
-    let options = options(shot, request);
-    check_memory(&options)?;
-    let stem = prepared.stem();
-    let folder = request.out.join(&stem);
-    std::fs::create_dir_all(&folder).map_err(|error| {
-        std::io::Error::new(
-            error.kind(),
-            format!(
-                "cannot make {}: {error}; name another folder with --out",
-                folder.display()
-            ),
-        )
-    })?;
-    let mistakes = |m| RenderError::Mistakes(Box::new(m));
-    let earlier = kept.take();
-    let scene = Scene::resolve(
-        shot,
-        &prepared.library,
-        frame,
-        earlier.as_ref().map(|(s, _)| s),
-    )
-    .map_err(mistakes)?;
-    let stage = match earlier {
-        Some((old, stage)) if std::sync::Arc::ptr_eq(&old.geometry, &scene.geometry) => stage,
-        other => Stage::with_precision(
-            &scene.geometry,
-            other.as_ref().map(|(_, stage)| stage),
-            shot.accuracy.tracing,
-        ),
-    };
-    let advance = |rays| progress.advance(rays);
-    let film = render(shot, frame, &scene, &stage, &options, &advance)
-        .map_err(|error| mistakes(crate::render::motion_mistake(shot, &error)))?;
-    let stops = exposing.stops(frame, shot.shot.frames);
-    let pictures = pictures(shot, frame, &scene, &film, stops, options.samples)?;
-    if pictures.saturated > 0 {
-        progress.note(&format!(
-            "warning: frame {frame}: {} values beyond what a file can hold were clamped",
-            pictures.saturated
-        ));
-    }
-    let digits = shot.shot.frames.to_string().len().max(4);
-    let mut first = None;
-    for (extension, bytes) in &pictures.files {
-        let name = format!("{stem}.{frame:0digits$}.{extension}");
-        write_atomically(&folder.join(&name), bytes)?;
-        first.get_or_insert(name);
-    }
-    *kept = Some((scene, stage));
-    Ok(first.unwrap_or_default())
-}
-
 /// Refuses an image that this machine surely cannot hold, rather than be killed half-way.
-fn check_memory(options: &Options) -> Result<(), RenderError> {
+///
+/// # Errors
+/// [`RenderError::Memory`].
+pub(super) fn check_memory(options: &Options) -> Result<(), RenderError> {
     // The film, developed values, bytes of a picture and the encoder's copy of them.
     let bytes = 12 + 12 + 3 + 16 + 8 * options.layers.len() as u64;
     let needed = (u64::from(options.width) * u64::from(options.height) * bytes) >> 20;
-    match free_memory() {
+    match free_memory_mib() {
         Some(free) if needed > free => Err(RenderError::Memory {
             width: options.width,
             height: options.height,
@@ -243,17 +169,4 @@ fn check_memory(options: &Options) -> Result<(), RenderError> {
         }),
         _ => Ok(()),
     }
-}
-
-/// MiB of memory that can be had, where the system says.
-fn free_memory() -> Option<u64> {
-    let text = std::fs::read_to_string("/proc/meminfo").ok()?;
-    let line = text
-        .lines()
-        .find_map(|line| line.strip_prefix("MemAvailable:"))?;
-    line.split_whitespace()
-        .next()?
-        .parse::<u64>()
-        .ok()
-        .map(|kib| kib >> 10)
 }

@@ -21,6 +21,28 @@ pub fn write_atomically(path: &Path, bytes: &[u8]) -> io::Result<()> {
     replace(path, bytes).map_err(|error| explain(path, &error))
 }
 
+/// Whether files can be made in a folder, found out by making one.
+///
+/// # Errors
+/// As [`write_atomically`].
+pub(super) fn check_writable(folder: &Path, stem: &str) -> io::Result<()> {
+    let path = folder.join(stem);
+    create_beside(&path)
+        .and_then(|(file, temporary)| {
+            drop(file);
+            fs::remove_file(temporary)
+        })
+        .map_err(|error| explain(&path, &error))
+}
+
+/// Whether there is no room: of no use to try again before somebody has made some.
+pub(super) fn is_full(error: &io::Error) -> bool {
+    matches!(
+        error.kind(),
+        ErrorKind::StorageFull | ErrorKind::QuotaExceeded | ErrorKind::FileTooLarge
+    )
+}
+
 fn replace(path: &Path, bytes: &[u8]) -> io::Result<()> {
     let (mut file, temporary) = create_beside(path)?;
     let written = file.write_all(bytes).and_then(|()| file.sync_all());
@@ -55,7 +77,7 @@ fn create_beside(path: &Path) -> io::Result<(File, PathBuf)> {
     }
 }
 
-fn folder_of(path: &Path) -> &Path {
+pub(super) fn folder_of(path: &Path) -> &Path {
     match path.parent() {
         Some(folder) if folder != Path::new("") => folder,
         _ => Path::new("."),
@@ -84,7 +106,7 @@ fn sync_folder(_: &Path) -> io::Result<()> {
     Ok(())
 }
 
-fn explain(path: &Path, error: &io::Error) -> io::Error {
+pub(super) fn explain(path: &Path, error: &io::Error) -> io::Error {
     let folder = folder_of(path).display();
     let remedy = match error.kind() {
         ErrorKind::StorageFull | ErrorKind::QuotaExceeded => {

@@ -3,7 +3,7 @@
 use super::StudyError;
 use super::memory::{forget_peak, peak_mib};
 use crate::film::{Film, develop};
-use crate::queue::{Exposing, Pictures, pictures, write_atomically};
+use crate::queue::{Exposing, Pictures, Taken, pictures, write_atomically};
 use crate::render::{Options, Profile, View, development, motion_mistake, render_profiled};
 use crate::scene::Scene;
 use crate::shot::Shot;
@@ -124,9 +124,13 @@ impl Variant {
             &self.shot,
             subject.frame,
             scene,
+            stage,
             &film,
-            subject.stops,
-            self.options.samples,
+            Taken {
+                exposure_stops: subject.stops,
+                samples: self.options.samples,
+                fingerprint: None,
+            },
         )?;
         for (extension, bytes) in &files {
             let name = subject.scratch.join("image").with_extension(extension);

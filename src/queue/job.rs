@@ -1,0 +1,231 @@
+//! A shot of the call: which of its frames are there, and what a run did about them.
+
+use super::batch::Task;
+use super::claim::sweep;
+use super::deed::Deed;
+use super::ledger::Ledger;
+use super::reel::{Glance, Reel, ReelError, Status};
+use super::shard::Shard;
+use super::shots::{Exposing, Prepared, Request, check_memory, options};
+use super::write::check_writable;
+use crate::plan::FrameKey;
+use crate::render::Options;
+use crate::scene::Scene;
+use crate::shot::{Mistakes, Shot};
+use crate::trace::Stage;
+use std::collections::BTreeMap;
+use std::path::PathBuf;
+
+/// Which frames of those chosen are rendered.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub enum Force {
+    /// Those that are missing or stale.
+    #[default]
+    No,
+    /// All.
+    Yes,
+}
+
+/// A shot of the call.
+pub struct Job {
+    /// Its frames in their folder.
+    pub reel: Reel,
+    /// What this run did about them so far.
+    pub deeds: BTreeMap<u32, Deed>,
+    /// Why this run can do no more for this shot.
+    pub(super) halted: Option<String>,
+    pub(super) options: Options,
+    /// The frames chosen.
+    chosen: Vec<Chosen>,
+    pub(super) prepared: Option<Prepared>,
+    pub(super) ledger: Option<Ledger>,
+    pub(super) exposing: Option<Exposing>,
+    /// Trees to be taken over by the next image.
+    pub(super) kept: Option<(Scene, Stage)>,
+    pub(super) end: End,
+}
+
+/// Whether a job's end has been told.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum End {
+    Ahead,
+    Told,
+}
+
+struct Chosen {
+    frame: u32,
+    key: FrameKey,
+    status: Status,
+    /// The folder as it was when `status` was judged.
+    glance: Glance,
+}
+
+impl Job {
+    /// A shot with the frames chosen of it.
+    ///
+    /// # Errors
+    /// Files of the shot or of the folder that cannot be read.
+    pub fn open(shot: &Shot, request: &Request, frames: &[u32]) -> Result<Self, ReelError> {
+        let reel = Reel::open(shot, request)?;
+        let chosen = frames.iter().map(|&frame| {
+            let key = reel.keys.frame(frame);
+            Chosen {
+                frame,
+                glance: reel.glance(frame),
+                status: reel.status(frame, &key),
+                key,
+            }
+        });
+        Ok(Self {
+            chosen: chosen.collect(),
+            options: options(shot, request),
+            reel,
+            deeds: BTreeMap::new(),
+            halted: None,
+            prepared: None,
+            ledger: None,
+            exposing: None,
+            kept: None,
+            end: End::Ahead,
+        })
+    }
+
+    /// How many frames were chosen.
+    pub fn len(&self) -> usize {
+        self.chosen.len()
+    }
+
+    /// Whether none was.
+    pub fn is_empty(&self) -> bool {
+        self.chosen.is_empty()
+    }
+
+    /// The frames chosen of which this run left none as it should be.
+    pub fn missing(&self) -> Vec<u32> {
+        let there = |frame: &u32| {
+            let deed = self.deeds.get(frame);
+            matches!(deed, Some(Deed::Kept { .. } | Deed::Rendered { .. }))
+        };
+        let frames = self.chosen.iter().map(|chosen| chosen.frame);
+        frames.filter(|frame| !there(frame)).collect()
+    }
+
+    /// Reads what the shot names, if a frame is to be rendered, and checks those that are. Nothing
+    /// is read where all is fresh.
+    ///
+    /// # Errors
+    /// All its mistakes.
+    pub fn prepare(&mut self, force: Force) -> Result<(), Mistakes> {
+        let frames: Vec<u32> = self.wanted(force).map(|chosen| chosen.frame).collect();
+        if !frames.is_empty() {
+            let shot = self.reel.shot().clone();
+            self.prepared = Some(Prepared::new(shot, frames.into_iter())?);
+        }
+        Ok(())
+    }
+
+    /// What the shot's files ask for and the picture will not show, if they have been read.
+    pub fn prepared(&self) -> Option<&Prepared> {
+        self.prepared.as_ref()
+    }
+
+    /// Makes the folder ready, if a frame is to be rendered; where it cannot be written to, or the
+    /// images cannot be held, the job is halted.
+    pub fn furnish(&mut self, shard: Option<Shard>) {
+        if self.prepared.is_some() {
+            self.halted = self.furnished(shard).err();
+        }
+    }
+
+    fn furnished(&mut self, shard: Option<Shard>) -> Result<(), String> {
+        check_memory(&self.options).map_err(|error| error.to_string())?;
+        let (folder, names) = (&self.reel.folder, &self.reel.names);
+        std::fs::create_dir_all(folder).map_err(|error| {
+            let folder = folder.display();
+            format!("cannot make {folder}: {error}; name another folder with --out")
+        })?;
+        check_writable(folder, &names.frame(1, "png")).map_err(|error| error.to_string())?;
+        sweep(folder, names);
+        let ledger = Ledger::open(folder, names, shard, self.reel.shot());
+        self.ledger = Some(ledger.map_err(|error| error.to_string())?);
+        Ok(())
+    }
+
+    /// The frames to be rendered, as number `job` of the night.
+    pub(super) fn tasks(&self, job: usize, force: Force) -> Vec<Task> {
+        let task = |chosen: &Chosen| Task {
+            job,
+            frame: chosen.frame,
+            key: chosen.key.clone(),
+            because: match &chosen.status {
+                Status::Fresh => Some("fresh, rendered by --force".to_owned()),
+                Status::Missing => None,
+                Status::Stale { because } => Some(format!("stale because {because}")),
+            },
+            glance: chosen.glance.clone(),
+            work: self.work(),
+        };
+        self.wanted(force).map(task).collect()
+    }
+
+    /// The frames that are there already.
+    pub(super) fn fresh(&self, force: Force) -> Vec<u32> {
+        let fresh = |chosen: &&Chosen| force == Force::No && chosen.status == Status::Fresh;
+        let frames = self.chosen.iter().filter(fresh);
+        frames.map(|chosen| chosen.frame).collect()
+    }
+
+    fn wanted(&self, force: Force) -> impl Iterator<Item = &Chosen> {
+        let all = self.chosen.iter();
+        all.filter(move |chosen| force == Force::Yes || chosen.status != Status::Fresh)
+    }
+
+    /// Whether another process made a frame what it should be since it was looked at.
+    pub(super) fn came_true(&mut self, task: &Task) -> bool {
+        if self.reel.glance(task.frame) == task.glance {
+            return false;
+        }
+        // A manifest that cannot be read any more tells nothing; the files still do.
+        let _ = self.reel.refresh();
+        self.reel.status(task.frame, &task.key) == Status::Fresh
+    }
+
+    /// Paths of a frame's files.
+    pub(super) fn files(&self, frame: u32) -> Vec<PathBuf> {
+        let names = self.reel.files(frame).into_iter();
+        names.map(|name| self.reel.folder.join(name)).collect()
+    }
+
+    /// What a frame is expected to cost: its rays.
+    fn work(&self) -> f64 {
+        let Options {
+            width,
+            height,
+            samples,
+            ..
+        } = self.options;
+        f64::from(width) * f64::from(height) * f64::from(samples)
+    }
+
+    /// Whether nothing is left to do for it.
+    pub(super) fn is_settled(&self) -> bool {
+        self.halted.is_some() || self.deeds.len() == self.chosen.len()
+    }
+
+    /// Gives back what rendering took.
+    pub(super) fn release(&mut self) {
+        sweep(&self.reel.folder, &self.reel.names);
+        (self.prepared, self.kept) = (None, None);
+    }
+}
+
+/// Leaves each job the frames of one shard.
+pub fn choose_shard(jobs: &mut [Job], shard: Shard) {
+    let all = jobs.iter().flat_map(|job| &job.chosen);
+    let mut ours = shard
+        .choose(all.map(|chosen| chosen.key.trace.as_str()))
+        .into_iter();
+    for job in jobs {
+        job.chosen.retain(|_| ours.next() == Some(true));
+    }
+}

@@ -1,0 +1,73 @@
+//! The record of a frame that has just been finished.
+
+use super::batch::Task;
+use super::job::Job;
+use super::machine::{host, now, peak_memory_mib};
+use super::manifest::{Record, Seconds};
+use super::picture::Pictures;
+use crate::plan::{self, Called};
+use crate::render::spliced;
+use crate::shot::{Beaming, Shot};
+
+/// Exposure of a frame, stops.
+pub(super) fn stops(job: &Job, frame: u32) -> f64 {
+    let frames = job.reel.shot().shot.frames;
+    let exposing = job.exposing.as_ref();
+    exposing.map_or(0.0, |exposing| exposing.stops(frame, frames))
+}
+
+/// What a frame's viewer should know.
+pub(super) fn warnings(made: &Pictures) -> Vec<String> {
+    let saturated = (made.saturated > 0).then(|| {
+        let values = made.saturated;
+        format!("{values} values beyond what a file can hold were clamped")
+    });
+    saturated.into_iter().chain(made.warnings.clone()).collect()
+}
+
+/// The record of a frame, but for its files, times and warnings.
+pub(super) fn blank(job: &Job, task: &Task) -> Record {
+    let options = &job.options;
+    Record {
+        frame: task.frame,
+        fingerprint: task.key.fingerprint.clone(),
+        parts: task.key.parts.clone(),
+        files: Vec::new(),
+        size: [options.width, options.height],
+        samples: options.samples,
+        effects: effects(job.reel.shot(), task.frame),
+        trace: task.key.trace.clone(),
+        shared: 1,
+        exposure: stops(job, task.frame),
+        seconds: Seconds::default(),
+        warnings: Vec::new(),
+        memory_mib: peak_memory_mib(),
+        threads: u32::try_from(rayon::current_num_threads()).unwrap_or(u32::MAX),
+        host: host(),
+        version: env!("CARGO_PKG_VERSION").to_owned(),
+        finished: now(),
+    }
+}
+
+/// Names of the effects that are simulated in a frame, in all of it or in a splice.
+fn effects(shot: &Shot, frame: u32) -> Vec<String> {
+    let splices = shot
+        .splice
+        .iter()
+        .map(|splice| spliced(&shot.effects, splice));
+    let parts: Vec<Called> = std::iter::once(shot.effects)
+        .chain(splices)
+        .filter_map(|effects| plan::called(shot, frame, &effects).ok())
+        .collect();
+    let table: [(&str, fn(&Called) -> bool); 7] = [
+        ("geometry", |called| called.geometry),
+        ("doppler", |called| called.doppler),
+        ("beaming", |called| called.beaming != Beaming::Off),
+        ("thermal", |called| called.thermal),
+        ("shadows", |called| called.shadows),
+        ("mirror", |called| called.mirror),
+        ("refraction", |called| called.refraction),
+    ];
+    let named = table.into_iter().filter(|(_, is)| parts.iter().any(is));
+    named.map(|(name, _)| name.to_owned()).collect()
+}

@@ -1,0 +1,105 @@
+//! Stopping when told to: by the terminal (SIGINT) or by whoever runs the machine (SIGTERM).
+//!
+//! The first signal asks the work to stop; where it cannot in time (a model of gigabytes is being
+//! read, say), the process ends anyway, and a second signal ends it at once. What is finished
+//! stays, and nothing is torn ([`write_atomically`](super::write_atomically)).
+
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+
+/// Whether this process was asked to stop.
+#[derive(Debug, Clone, Default)]
+pub struct Stop {
+    asked: Arc<AtomicBool>,
+    status: Arc<AtomicUsize>,
+}
+
+impl Stop {
+    /// Begins to listen. Signals that the process was started to ignore (`nohup`, the background of
+    /// a script) stay ignored. If the work has not stopped in time, `late` is called with the exit
+    /// status before the process ends with it.
+    ///
+    /// # Errors
+    /// When the system refuses.
+    pub fn listen(late: impl Fn(u8) + Send + 'static) -> std::io::Result<Self> {
+        let stop = Self::default();
+        system::listen(stop.clone(), late)?;
+        Ok(stop)
+    }
+
+    /// True from the first signal on.
+    pub fn asked(&self) -> &AtomicBool {
+        &self.asked
+    }
+
+    /// Exit status of a process that was asked to stop: 130 interrupted, 143 terminated.
+    pub fn status(&self) -> Option<u8> {
+        let status = self.status.load(Ordering::SeqCst);
+        u8::try_from(status).ok().filter(|status| *status > 0)
+    }
+}
+
+#[cfg(unix)]
+mod system {
+    use super::Stop;
+    use signal_hook::consts::{SIGINT, SIGTERM, SIGXFSZ};
+    use signal_hook::iterator::Signals;
+    use std::sync::Arc;
+    use std::sync::atomic::{AtomicBool, Ordering};
+    use std::time::Duration;
+
+    /// How long the work may take to stop: two seconds are promised.
+    const PATIENCE: Duration = Duration::from_millis(1800);
+
+    pub(super) fn listen(stop: Stop, late: impl Fn(u8) + Send + 'static) -> std::io::Result<()> {
+        // With a handler, if only of a flag that nobody reads, a file that grows beyond the limit
+        // is an error of its writer and does not end the process.
+        signal_hook::flag::register(SIGXFSZ, Arc::new(AtomicBool::new(false)))?;
+        let ignored = ignored();
+        let heard = [SIGINT, SIGTERM].into_iter();
+        let mut signals = Signals::new(heard.filter(|signal| ignored >> (signal - 1) & 1 == 0))?;
+        let mut late = Some(late);
+        std::thread::spawn(move || {
+            for signal in signals.forever() {
+                let status = if signal == SIGTERM { 143 } else { 130 };
+                let Some(late) = late.take() else {
+                    std::process::exit(status.into());
+                };
+                stop.status.store(status.into(), Ordering::SeqCst);
+                stop.asked.store(true, Ordering::SeqCst);
+                std::thread::spawn(move || {
+                    std::thread::sleep(PATIENCE);
+                    late(status);
+                    std::process::exit(status.into());
+                });
+            }
+        });
+        Ok(())
+    }
+
+    /// A bit for each signal that is ignored, where the system says.
+    fn ignored() -> u64 {
+        let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
+        let mask = status.lines().find_map(|line| line.strip_prefix("SigIgn:"));
+        mask.and_then(|mask| u64::from_str_radix(mask.trim(), 16).ok())
+            .unwrap_or_default()
+    }
+}
+
+#[cfg(not(unix))]
+mod system {
+    use super::Stop;
+    use signal_hook::consts::{SIGINT, SIGTERM};
+    use signal_hook::flag;
+    use std::sync::Arc;
+
+    pub(super) fn listen(stop: Stop, _late: impl Fn(u8) + Send + 'static) -> std::io::Result<()> {
+        for (signal, status) in [(SIGINT, 130_u8), (SIGTERM, 143)] {
+            // In this order: the first signal finds nothing asked yet.
+            flag::register_conditional_shutdown(signal, status.into(), Arc::clone(&stop.asked))?;
+            flag::register_usize(signal, Arc::clone(&stop.status), status.into())?;
+            flag::register(signal, Arc::clone(&stop.asked))?;
+        }
+        Ok(())
+    }
+}
