@@ -1,7 +1,8 @@
 //! Films exposed, a band of rows to a thread: each piece of a row is traced once, and shaded for
 //! every image.
 
-use super::paint::{BAND, Painter, Part, Row, split_bands};
+use super::band::{BAND, bands};
+use super::paint::{Painter, Row};
 use super::profile::Lap;
 use super::view::{View, Views};
 use super::{Options, Profile, Watch};
@@ -42,8 +43,9 @@ pub(super) fn expose(
                     number,
                     in_band: (number - first) as usize,
                     options,
+                    samples,
                 };
-                painter.paint(&views, samples, &row, &mut parts, watch)?;
+                painter.paint(&views, &row, &mut parts, watch)?;
             }
             if let Some((lead, others)) = parts.split_first_mut() {
                 others.iter_mut().for_each(|part| part.copy_layers(lead));
@@ -59,19 +61,6 @@ pub(super) fn expose(
         trace: trace / whole,
         shade: 1.0 - trace / whole,
     })
-}
-
-/// For each band of rows its part of every film.
-fn bands(films: &mut [Film]) -> Vec<Vec<Part<'_>>> {
-    let mut bands: Vec<Vec<Part<'_>>> = Vec::new();
-    for film in films {
-        let parts = split_bands(film);
-        bands.resize_with(parts.len(), Vec::new);
-        for (band, part) in bands.iter_mut().zip(parts) {
-            band.push(part);
-        }
-    }
-    bands
 }
 
 /// The views of a row, of which the first traces.

@@ -8,6 +8,7 @@ use crate::spectrum::color_space;
 use crate::trace::Stage;
 use std::ops::Range;
 
+mod band;
 mod expose;
 mod lab_path;
 mod meter;

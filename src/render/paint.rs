@@ -1,9 +1,9 @@
 //! Pixels: their rays traced, shaded and averaged, a piece of a row at a time.
 
+use super::band::Part;
 use super::expose::Stopped;
 use super::profile::Lap;
 use super::{LabPath, Options, View, Watch};
-use crate::film::{Channels, Film, Layers};
 use crate::shade::ShadeScratch;
 use crate::shot::Layer;
 use crate::trace::{Node, Samples, Scratch, Seen, ShadeTrees, Tracer};
@@ -12,93 +12,30 @@ use std::ops::Range;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 
-/// Rows of pixels that one thread takes at a time.
-pub(super) const BAND: usize = 8;
 /// Rays that are boosted and traced together: their scratch memory stays in the second cache.
 const RAYS: u32 = 2048;
 /// The same where each ray may grow a tree of a thousand nodes, some 100 bytes each.
 const RAYS_WITH_TREES: u32 = 256;
+/// Rays that are shaded before it is looked whether to stop: milliseconds even by quadrature.
+const RAYS_BETWEEN_LOOKS: usize = 64;
 /// Most lamps seen from the surfaces that rays traced together meet, so that with ten thousand of
 /// them, too, it takes milliseconds.
 const LAMPS: usize = 1 << 16;
-
-/// What one band of rows of an image writes to.
-pub(super) struct Part<'a> {
-    xyz: &'a mut [[f32; 3]],
-    layers: Vec<(Layer, &'a mut [f32])>,
-}
-
-impl Part<'_> {
-    /// Takes the layers of an image of the same trees.
-    pub(super) fn copy_layers(&mut self, from: &Part<'_>) {
-        for ((_, values), (_, from)) in self.layers.iter_mut().zip(&from.layers) {
-            values.copy_from_slice(from);
-        }
-    }
-}
-
-pub(super) fn empty_film(options: &Options, channels: Channels) -> Film {
-    let pixels = options.width as usize * options.height as usize;
-    let layer = |which: Layer, background: f32| {
-        options
-            .layers
-            .contains(&which)
-            .then(|| vec![background; pixels])
-    };
-    Film {
-        width: options.width,
-        height: options.height,
-        channels,
-        xyz: vec![[0.0; 3]; pixels],
-        layers: Layers {
-            doppler: layer(Layer::Doppler, 0.0),
-            distance: layer(Layer::Distance, 0.0),
-            emission_time: layer(Layer::EmissionTime, 0.0),
-            worldline: layer(Layer::Worldline, -1.0),
-        },
-    }
-}
-
-pub(super) fn split_bands(film: &mut Film) -> Vec<Part<'_>> {
-    let size = film.width as usize * BAND;
-    let mut parts: Vec<Part<'_>> = film
-        .xyz
-        .chunks_mut(size)
-        .map(|xyz| Part {
-            xyz,
-            layers: Vec::new(),
-        })
-        .collect();
-    let layers = &mut film.layers;
-    for (which, layer) in [
-        (Layer::Doppler, &mut layers.doppler),
-        (Layer::Distance, &mut layers.distance),
-        (Layer::EmissionTime, &mut layers.emission_time),
-        (Layer::Worldline, &mut layers.worldline),
-    ] {
-        for (part, values) in parts
-            .iter_mut()
-            .zip(layer.iter_mut().flat_map(|l| l.chunks_mut(size)))
-        {
-            part.layers.push((which, values));
-        }
-    }
-    parts
-}
 
 /// A row of pixels.
 pub(super) struct Row<'a> {
     pub(super) number: u32,
     pub(super) in_band: usize,
     pub(super) options: &'a Options,
+    pub(super) samples: &'a Samples,
 }
 
 impl Row<'_> {
     /// The direction of sample `index` of pixel `x`, where the camera looks anywhere in it.
     #[inline(always)]
-    fn looks_along(&self, view: &View<'_>, samples: &Samples, x: u32, index: u32) -> Option<DVec3> {
+    fn looks_along(&self, view: &View<'_>, x: u32, index: u32) -> Option<DVec3> {
         let [width, height] = [self.options.width, self.options.height].map(f64::from);
-        let [dx, dy] = samples.position(x, self.number, index);
+        let [dx, dy] = self.samples.position(x, self.number, index);
         let point = [
             (f64::from(x) + dx) / width,
             (f64::from(self.number) + dy) / height,
@@ -111,22 +48,32 @@ impl Row<'_> {
         self.in_band * self.options.width as usize + x as usize
     }
 
-    /// Which of the `rays` of pixel `x` in a piece belongs to the sample, if that one has a ray.
+    /// Which of the `rays` of pixel `x` belongs to a sample of theirs, if that one has a ray.
     fn ray_of(
         &self,
         view: &View<'_>,
-        samples: &Samples,
         x: u32,
         sample: u32,
-        (piece, rays): (&Piece, &Range<usize>),
+        (samples, rays): (&Range<u32>, &Range<usize>),
     ) -> Option<usize> {
-        let before = piece.samples.start..sample;
-        if rays.len() == piece.samples.len() {
+        let before = samples.start..sample;
+        if rays.len() == samples.len() {
             return Some(rays.start + before.len());
         }
         // Few pixels are at the edge of what is seen: the camera is asked again which samples lack.
-        let has_ray = |&index: &u32| self.looks_along(view, samples, x, index).is_some();
+        let has_ray = |&index: &u32| self.looks_along(view, x, index).is_some();
         has_ray(&sample).then(|| rays.start + before.filter(has_ray).count())
+    }
+
+    /// The sample of pixel `x` nearest to its centre, whose surface the layers describe.
+    fn central_sample(&self, x: u32) -> u32 {
+        let off = |index: u32| {
+            let [dx, dy] = self.samples.position(x, self.number, index);
+            (dx - 0.5).powi(2) + (dy - 0.5).powi(2)
+        };
+        (0..self.samples.count())
+            .min_by(|&a, &b| off(a).total_cmp(&off(b)))
+            .unwrap_or(0)
     }
 }
 
@@ -161,14 +108,14 @@ impl Piece {
 pub(super) struct Painter {
     /// Of the samples that see something, pixel by pixel.
     directions: Vec<DVec3>,
-    /// Where the directions of each pixel end.
-    ends: Vec<usize>,
+    /// The pixels of a piece: their columns, and which of the directions are theirs.
+    pixels: Vec<(u32, Range<usize>)>,
     scratch: Scratch,
     trees: ShadeTrees,
     shading: ShadeScratch,
-    /// Of a pixel whose samples are not all in one piece: their light so far in each image, …
+    /// Of a pixel whose samples are not all in one piece: its light so far in each image, …
     sums: Vec<[f64; 3]>,
-    /// … and which of them is nearest to its centre.
+    /// … and which of its samples is nearest to its centre.
     central: u32,
     /// Seconds of tracing and of shading.
     pub(super) seconds: [f64; 2],
@@ -177,26 +124,25 @@ pub(super) struct Painter {
 }
 
 impl Painter {
-    /// Renders a row of images that share its trees, a piece at a time.
+    /// Renders a row of images that share its trees, those of the first.
     pub(super) fn paint(
         &mut self,
         views: &[&View<'_>],
-        samples: &Samples,
         row: &Row<'_>,
         parts: &mut [Part<'_>],
         watch: Watch<'_>,
     ) -> Result<(), Stopped> {
         self.sums.resize(views.len(), [0.0; 3]);
-        let rays = rays_at_once(views[0]);
-        for piece in Piece::of_row(row.options.width, samples.count(), rays) {
+        let (lead, rays) = (views[0], rays_at_once(views[0]));
+        for piece in Piece::of_row(row.options.width, row.samples.count(), rays) {
             go_on(watch.stop)?;
             let begun = Instant::now();
-            self.trace(views[0], samples, row, &piece);
+            self.trace(lead, row, &piece);
             let traced = Instant::now();
-            self.write_layers(views[0], samples, row, &piece, &mut parts[0]);
+            self.write_layers(lead, row, &piece, &mut parts[0]);
             for (image, (view, part)) in views.iter().zip(&mut *parts).enumerate() {
-                go_on(watch.stop)?;
-                self.shade(image, view, samples.count(), row, &piece, part);
+                let image = (image, *view, part);
+                self.shade(image, row, &piece, watch.stop)?;
             }
             let shading = traced.elapsed().as_secs_f64();
             self.seconds[0] += (traced - begun).as_secs_f64();
@@ -209,17 +155,18 @@ impl Painter {
         Ok(())
     }
 
-    fn trace(&mut self, view: &View<'_>, samples: &Samples, row: &Row<'_>, piece: &Piece) {
+    fn trace(&mut self, view: &View<'_>, row: &Row<'_>, piece: &Piece) {
         let begun = self.lap.as_ref().map(|_| Instant::now());
         self.directions.clear();
-        self.ends.clear();
+        self.pixels.clear();
         for x in piece.pixels.clone() {
+            let first = self.directions.len();
             for index in piece.samples.clone() {
-                if let Some(direction) = row.looks_along(view, samples, x, index) {
+                if let Some(direction) = row.looks_along(view, x, index) {
                     self.directions.push(direction);
                 }
             }
-            self.ends.push(self.directions.len());
+            self.pixels.push((x, first..self.directions.len()));
         }
         self.trees.clear();
         if let (Some(lap), Some(begun)) = (&mut self.lap, begun) {
@@ -232,30 +179,24 @@ impl Painter {
         tracer.trace(&self.directions, &mut self.scratch, &mut self.trees);
     }
 
-    /// The pixels of a piece with their rays.
-    fn pixels(ends: &[usize], piece: &Piece) -> impl Iterator<Item = (u32, Range<usize>)> {
-        let starts = std::iter::once(0).chain(ends.iter().copied());
-        let rays = starts.zip(ends).map(|(start, end)| start..*end);
-        piece.pixels.clone().zip(rays)
-    }
-
     /// Writes the means over all samples of each pixel: those that have no ray are black.
     fn shade(
         &mut self,
-        image: usize,
-        view: &View<'_>,
-        count: u32,
+        (image, view, part): (usize, &View<'_>, &mut Part<'_>),
         row: &Row<'_>,
         piece: &Piece,
-        part: &mut Part<'_>,
-    ) {
-        let ends = std::mem::take(&mut self.ends);
-        for (x, rays) in Self::pixels(&ends, piece) {
+        stop: &AtomicBool,
+    ) -> Result<(), Stopped> {
+        let count = row.samples.count();
+        for (x, rays) in &self.pixels {
             let mut sum = match piece.samples.start {
                 0 => [0.0; 3],
                 _ => self.sums[image],
             };
-            for ray in rays {
+            for ray in rays.clone() {
+                if ray % RAYS_BETWEEN_LOOKS == 0 {
+                    go_on(stop)?;
+                }
                 let root = self.trees.roots[ray];
                 let xyz = view.shader().xyz(&self.trees, root, &mut self.shading);
                 for (sum, value) in sum.iter_mut().zip(xyz) {
@@ -264,39 +205,30 @@ impl Painter {
             }
             if piece.samples.end == count {
                 // What f32 cannot hold is counted when the film is developed.
-                part.xyz[row.place(x)] = sum.map(|v| (v / f64::from(count)) as f32);
+                part.xyz[row.place(*x)] = sum.map(|v| (v / f64::from(count)) as f32);
             } else {
                 self.sums[image] = sum;
             }
         }
-        self.ends = ends;
+        Ok(())
     }
 
     /// Writes the layers of pixels whose central samples are in the piece.
-    fn write_layers(
-        &mut self,
-        view: &View<'_>,
-        samples: &Samples,
-        row: &Row<'_>,
-        piece: &Piece,
-        part: &mut Part<'_>,
-    ) {
+    fn write_layers(&mut self, view: &View<'_>, row: &Row<'_>, piece: &Piece, part: &mut Part<'_>) {
         if part.layers.is_empty() {
             return;
         }
-        let ends = std::mem::take(&mut self.ends);
-        for (x, rays) in Self::pixels(&ends, piece) {
+        for (x, rays) in &self.pixels {
             if piece.samples.start == 0 {
-                self.central = central_sample(samples, x, row.number);
+                self.central = row.central_sample(*x);
             }
             if piece.samples.contains(&self.central) {
-                let ray = row.ray_of(view, samples, x, self.central, (piece, &rays));
-                if let Some(ray) = ray {
-                    self.write_surface(view, ray, row.place(x), part);
+                let of = (&piece.samples, rays);
+                if let Some(ray) = row.ray_of(view, *x, self.central, of) {
+                    self.write_surface(view, ray, row.place(*x), part);
                 }
             }
         }
-        self.ends = ends;
     }
 
     /// Writes what the layers say of the surface that a ray meets first, if any.
@@ -342,15 +274,4 @@ fn go_on(stop: &AtomicBool) -> Result<(), Stopped> {
     } else {
         Ok(())
     }
-}
-
-/// The sample nearest to the pixel's centre, whose surface the layers describe.
-fn central_sample(samples: &Samples, x: u32, y: u32) -> u32 {
-    let off = |index: u32| {
-        let [dx, dy] = samples.position(x, y, index);
-        (dx - 0.5).powi(2) + (dy - 0.5).powi(2)
-    };
-    (0..samples.count())
-        .min_by(|&a, &b| off(a).total_cmp(&off(b)))
-        .unwrap_or(0)
 }

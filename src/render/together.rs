@@ -1,7 +1,7 @@
 //! Several images in one: those that share shade trees are traced once and shaded each.
 
+use super::band::empty_film;
 use super::expose::{Stopped, expose};
-use super::paint::empty_film;
 use super::profile::Profile;
 use super::view::{Standings, Views};
 use super::{Options, channels};

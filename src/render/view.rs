@@ -150,28 +150,27 @@ impl<'a> View<'a> {
         }
     }
 
-    /// Whether what is cheap to compare of what tracing reads is the other's: not so where images
-    /// were put together that share no trace.
+    /// Whether what tracing reads is the other's, as far as that is cheap to compare: not so where
+    /// images were put together that share no trace.
     pub(super) fn traces_like(&self, other: &Self) -> bool {
-        let read = |view: &Self| {
+        let of_scene = |view: &Self| {
             let scene = view.scene;
-            (
-                [view.called.shadows, scene.background.is_black()],
-                [view.bounces.into(), view.cutoff.to_bits()],
-                scene.geometry.instances.len(),
-                [scene.materials.len(), scene.lights.len()],
-                scene.camera.worldline,
-            )
+            let numbers = [scene.materials.len(), scene.lights.len()];
+            (numbers, scene.camera.worldline, scene.background.is_black())
         };
         let surfaces = |view: &Self| {
             let materials = view.scene.materials.iter();
-            materials
-                .map(|m| (m.takes_lamps(), m.passes_light_on()))
-                .collect::<Vec<_>>()
+            let terms = materials.map(|m| (m.takes_lamps(), m.passes_light_on()));
+            terms.collect::<Vec<_>>()
         };
-        read(self) == read(other)
-            && self.scene.worldlines == other.scene.worldlines
+        let passing = surfaces(self).iter().any(|(_, passes_on)| *passes_on);
+        let branches = |view: &Self| passing.then_some((view.bounces, view.cutoff));
+        let shadows = |view: &Self| !view.scene.lights.is_empty() && view.called.shadows;
+        of_scene(self) == of_scene(other)
             && surfaces(self) == surfaces(other)
+            && self.scene.worldlines == other.scene.worldlines
+            && branches(self) == branches(other)
+            && shadows(self) == shadows(other)
     }
 }
 

@@ -36,7 +36,10 @@ const DIFFERING: &[Changes<'_>] = &[
     &[("ACCURACY", "spectra = \"spline\"\nwavelengths = 40")],
     &[("ACCURACY", "spectra = \"lines\"\nline_spacing = 20")],
     &[("ACCURACY", "spectra = \"lines\"\nline_spacing = 7")],
-    &[("ACCURACY", "spectra = \"rgb\"")],
+    &[
+        ("ACCURACY", "spectra = \"rgb\""),
+        ("EFFECTS", "doppler = \"off\""),
+    ],
     &[("ACCURACY", "wavelengths = 200")],
     &[("ACCURACY", "spectra = \"exact\"")],
 ];
@@ -108,7 +111,7 @@ fn before_a_sky_of_stars_seen_by_a_fisheye() {
 
 #[test]
 fn where_rows_are_spliced_under_effects_that_tracing_reads() {
-    let splices = "[[splice]]\nrows = [0.2, 0.5]\neffects = { geometry = \"off\", doppler = \"auto\" }\n\
+    let splices = "[[splice]]\nrows = [0.2, 0.5]\neffects = { geometry = \"off\" }\n\
                    [[splice]]\nrows = [0.4, 0.8]\neffects = { shadows = \"off\", thermal = \"off\" }";
     each_is_as_alone(&[("SPLICE", splices)], &options(2));
 }

@@ -4,6 +4,7 @@ use super::{Changes, options, prepared, scene, together};
 use restframe::queue::Prepared;
 use restframe::render::{Member, Options, TogetherError, Watch, render_together};
 use restframe::scene::Scene;
+use restframe::shot::{Track, Velocity};
 use restframe::trace::Stage;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::time::{Duration, Instant};
@@ -138,9 +139,17 @@ fn seconds_add_up_to_those_of_the_clock_on_the_wall() {
         ..options(16)
     };
     for threads in [1, 2] {
-        let begun = Instant::now();
-        let told = together(threads, &members, &stage, &options).unwrap();
-        let whole = begun.elapsed().as_secs_f64();
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
+        let stop = &AtomicBool::new(false);
+        let watch = Watch {
+            done: &|_| (),
+            stop,
+        };
+        let (told, whole) = pool.unwrap().install(|| {
+            let begun = Instant::now();
+            let told = render_together(&members, &stage, &options, watch).unwrap();
+            (told, begun.elapsed().as_secs_f64())
+        });
         let sum = told.prepare + told.trace + told.shade;
         println!(
             "{:.3} + {:.3} + {:.3} of {whole:.3} s",
@@ -172,23 +181,18 @@ fn tracing_is_not_repeated_for_every_image() {
 #[test]
 fn a_velocity_that_fails_in_one_member_is_named() {
     let whole = prepared(&[]);
-    let direction = "{ gamma = 2, direction = { from = [1, 0, 0], to = [-1, 0, 0] } }";
-    let turning = prepared(&[&[
-        (
-            "velocity = [0.6, 0.1, 0]",
-            &format!("velocity = {direction}"),
-        ),
-        ("[worldline.fast]", "[shot]\nframes = 3\n[worldline.fast]"),
-    ]]);
     let (scene, stage) = scene(&whole);
-    let turning = Member {
-        frame: 2,
-        ..member(&turning, &scene)
+    let mut failing = whole.shot.clone();
+    // No shot that can be read has it.
+    failing.worldline["fast"].velocity = Velocity::Beta(Track::Constant([0.0, 1.5, 0.0]));
+    let other = Member {
+        shot: &failing,
+        ..member(&whole, &scene)
     };
-    let members = [member(&whole, &scene), turning];
+    let members = [member(&whole, &scene), other];
     let result = together(2, &members, &stage, &options(1));
     let Err(TogetherError::Motion(error)) = result else {
-        unreachable!("there is no direction half-way: {result:?}")
+        unreachable!("nothing is so fast: {result:?}")
     };
-    assert_eq!((error.worldline.as_str(), error.frame), ("fast", 2));
+    assert_eq!((error.worldline.as_str(), error.frame), ("fast", 1));
 }
