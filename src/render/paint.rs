@@ -1,96 +1,105 @@
-//! Pixels: their rays traced, shaded and averaged, a band of rows at a time.
+//! Pixels: their rays traced, shaded and averaged, a piece of a row at a time.
 
+use super::band::Part;
+use super::expose::Stopped;
 use super::profile::Lap;
-use super::{LabPath, Options, View};
-use crate::film::{Channels, Film, Layers};
+use super::{LabPath, Options, View, Watch};
 use crate::shade::ShadeScratch;
 use crate::shot::Layer;
 use crate::trace::{Node, Samples, Scratch, Seen, ShadeTrees, Tracer};
 use glam::DVec3;
 use std::ops::Range;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 
-/// Rows of pixels that one thread takes at a time.
-pub(super) const BAND: usize = 8;
 /// Rays that are boosted and traced together: their scratch memory stays in the second cache.
 const RAYS: u32 = 2048;
 /// The same where each ray may grow a tree of a thousand nodes, some 100 bytes each.
 const RAYS_WITH_TREES: u32 = 256;
-
-/// What one band of rows writes to.
-pub(super) struct Part<'a> {
-    xyz: &'a mut [[f32; 3]],
-    layers: Vec<(Layer, &'a mut [f32])>,
-}
-
-pub(super) fn empty_film(options: &Options, channels: Channels) -> Film {
-    let pixels = options.width as usize * options.height as usize;
-    let layer = |which: Layer, background: f32| {
-        options
-            .layers
-            .contains(&which)
-            .then(|| vec![background; pixels])
-    };
-    Film {
-        width: options.width,
-        height: options.height,
-        channels,
-        xyz: vec![[0.0; 3]; pixels],
-        layers: Layers {
-            doppler: layer(Layer::Doppler, 0.0),
-            distance: layer(Layer::Distance, 0.0),
-            emission_time: layer(Layer::EmissionTime, 0.0),
-            worldline: layer(Layer::Worldline, -1.0),
-        },
-    }
-}
-
-pub(super) fn split_bands(film: &mut Film, bands: usize) -> Vec<Part<'_>> {
-    let size = film.width as usize * BAND;
-    let mut parts: Vec<Part<'_>> = film
-        .xyz
-        .chunks_mut(size)
-        .map(|xyz| Part {
-            xyz,
-            layers: Vec::new(),
-        })
-        .collect();
-    debug_assert_eq!(parts.len(), bands);
-    let layers = &mut film.layers;
-    for (which, layer) in [
-        (Layer::Doppler, &mut layers.doppler),
-        (Layer::Distance, &mut layers.distance),
-        (Layer::EmissionTime, &mut layers.emission_time),
-        (Layer::Worldline, &mut layers.worldline),
-    ] {
-        for (part, values) in parts
-            .iter_mut()
-            .zip(layer.iter_mut().flat_map(|l| l.chunks_mut(size)))
-        {
-            part.layers.push((which, values));
-        }
-    }
-    parts
-}
+/// Rays that are shaded before it is looked whether to stop: milliseconds even by quadrature.
+const RAYS_BETWEEN_LOOKS: usize = 64;
+/// Most lamps seen from the surfaces that rays traced together meet, so that with ten thousand of
+/// them, too, it takes milliseconds.
+const LAMPS: usize = 1 << 16;
 
 /// A row of pixels.
 pub(super) struct Row<'a> {
     pub(super) number: u32,
     pub(super) in_band: usize,
     pub(super) options: &'a Options,
+    pub(super) samples: &'a Samples,
 }
 
 impl Row<'_> {
     /// The direction of sample `index` of pixel `x`, where the camera looks anywhere in it.
     #[inline(always)]
-    fn looks_along(&self, view: &View<'_>, samples: &Samples, x: u32, index: u32) -> Option<DVec3> {
+    fn looks_along(&self, view: &View<'_>, x: u32, index: u32) -> Option<DVec3> {
         let [width, height] = [self.options.width, self.options.height].map(f64::from);
-        let [dx, dy] = samples.position(x, self.number, index);
+        let [dx, dy] = self.samples.position(x, self.number, index);
         let point = [
             (f64::from(x) + dx) / width,
             (f64::from(self.number) + dy) / height,
         ];
-        view.scene.camera.looks_along(point)
+        view.scene().camera.looks_along(point)
+    }
+
+    /// Where pixel `x` stands in its band.
+    fn place(&self, x: u32) -> usize {
+        self.in_band * self.options.width as usize + x as usize
+    }
+
+    /// Which of the `rays` of pixel `x` belongs to a sample of theirs, if that one has a ray.
+    fn ray_of(
+        &self,
+        view: &View<'_>,
+        x: u32,
+        sample: u32,
+        (samples, rays): (&Range<u32>, &Range<usize>),
+    ) -> Option<usize> {
+        let before = samples.start..sample;
+        if rays.len() == samples.len() {
+            return Some(rays.start + before.len());
+        }
+        // Few pixels are at the edge of what is seen: the camera is asked again which samples lack.
+        let has_ray = |&index: &u32| self.looks_along(view, x, index).is_some();
+        has_ray(&sample).then(|| rays.start + before.filter(has_ray).count())
+    }
+
+    /// The sample of pixel `x` nearest to its centre, whose surface the layers describe.
+    fn central_sample(&self, x: u32) -> u32 {
+        let off = |index: u32| {
+            let [dx, dy] = self.samples.position(x, self.number, index);
+            (dx - 0.5).powi(2) + (dy - 0.5).powi(2)
+        };
+        (0..self.samples.count())
+            .min_by(|&a, &b| off(a).total_cmp(&off(b)))
+            .unwrap_or(0)
+    }
+}
+
+/// Samples that are traced together, and then shaded for each image: all those of some pixels of a
+/// row, or a part of those of one.
+struct Piece {
+    pixels: Range<u32>,
+    samples: Range<u32>,
+}
+
+impl Piece {
+    /// The pieces of a row of `width` pixels, of at most so many rays each.
+    fn of_row(width: u32, samples: u32, rays: u32) -> impl Iterator<Item = Self> {
+        let pixels = (rays / samples).max(1);
+        (0..width).step_by(pixels as usize).flat_map(move |first| {
+            (0..samples)
+                .step_by(rays.min(samples) as usize)
+                .map(move |begin| Self {
+                    pixels: first..width.min(first + pixels),
+                    samples: begin..samples.min(begin + rays),
+                })
+        })
+    }
+
+    fn rays(&self) -> u64 {
+        self.pixels.len() as u64 * self.samples.len() as u64
     }
 }
 
@@ -99,64 +108,65 @@ impl Row<'_> {
 pub(super) struct Painter {
     /// Of the samples that see something, pixel by pixel.
     directions: Vec<DVec3>,
-    /// Where the directions of each pixel end.
-    ends: Vec<usize>,
+    /// The pixels of a piece: their columns, and which of the directions are theirs.
+    pixels: Vec<(u32, Range<usize>)>,
     scratch: Scratch,
     trees: ShadeTrees,
     shading: ShadeScratch,
-    /// Where seconds are counted, if anywhere.
+    /// Of a pixel whose samples are not all in one piece: its light so far in each image, …
+    sums: Vec<[f64; 3]>,
+    /// … and which of its samples is nearest to its centre.
+    central: u32,
+    /// Seconds of tracing and of shading.
+    pub(super) seconds: [f64; 2],
+    /// Where they are counted by phase, if anywhere.
     pub(super) lap: Option<Lap>,
 }
 
 impl Painter {
-    /// Renders a row, some pixels at a time.
+    /// Renders a row of images that share its trees, those of the first.
     pub(super) fn paint(
         &mut self,
-        view: &View<'_>,
-        samples: &Samples,
+        views: &[&View<'_>],
         row: &Row<'_>,
-        part: &mut Part<'_>,
-    ) {
-        let width = row.options.width;
-        let rays = if view.branches() {
-            RAYS_WITH_TREES
-        } else {
-            RAYS
-        };
-        let step = (rays / samples.count()).max(1);
-        for first in (0..width).step_by(step as usize) {
-            let pixels = first..(first + step).min(width);
-            self.trace(view, samples, row, pixels.clone());
-            let begun = self.lap.as_ref().map(|_| Instant::now());
-            let mut start = 0;
-            for (index, x) in pixels.enumerate() {
-                let rays = start..self.ends[index];
-                start = rays.end;
-                let at = row.in_band * width as usize + x as usize;
-                part.xyz[at] = self.mean_xyz(view, rays.clone(), samples.count());
-                if !part.layers.is_empty()
-                    && let Some(central) = central_ray(view, samples, row, x, rays)
-                {
-                    self.write_layers(view, central, at, part);
-                }
+        parts: &mut [Part<'_>],
+        watch: Watch<'_>,
+    ) -> Result<(), Stopped> {
+        self.sums.resize(views.len(), [0.0; 3]);
+        let (lead, rays) = (views[0], rays_at_once(views[0]));
+        for piece in Piece::of_row(row.options.width, row.samples.count(), rays) {
+            go_on(watch.stop)?;
+            let begun = Instant::now();
+            self.trace(lead, row, &piece);
+            let traced = Instant::now();
+            self.write_layers(lead, row, &piece, &mut parts[0]);
+            for (image, (view, part)) in views.iter().zip(&mut *parts).enumerate() {
+                let image = (image, *view, part);
+                self.shade(image, row, &piece, watch.stop)?;
             }
-            if let (Some(lap), Some(begun)) = (&mut self.lap, begun) {
-                lap.shade += begun.elapsed().as_secs_f64();
+            let shading = traced.elapsed().as_secs_f64();
+            self.seconds[0] += (traced - begun).as_secs_f64();
+            self.seconds[1] += shading;
+            if let Some(lap) = &mut self.lap {
+                lap.shade += shading;
             }
+            (watch.done)(piece.rays() * views.len() as u64);
         }
+        Ok(())
     }
 
-    fn trace(&mut self, view: &View<'_>, samples: &Samples, row: &Row<'_>, pixels: Range<u32>) {
+    fn trace(&mut self, view: &View<'_>, row: &Row<'_>, piece: &Piece) {
         let begun = self.lap.as_ref().map(|_| Instant::now());
         self.directions.clear();
-        self.ends.clear();
-        for x in pixels {
-            for index in 0..samples.count() {
-                if let Some(direction) = row.looks_along(view, samples, x, index) {
+        self.pixels.clear();
+        for x in piece.pixels.clone() {
+            let first = self.directions.len();
+            for index in piece.samples.clone() {
+                if let Some(direction) = row.looks_along(view, x, index) {
                     self.directions.push(direction);
                 }
             }
-            self.ends.push(self.directions.len());
+            self.pixels.push((x, first..self.directions.len()));
         }
         self.trees.clear();
         if let (Some(lap), Some(begun)) = (&mut self.lap, begun) {
@@ -169,23 +179,60 @@ impl Painter {
         tracer.trace(&self.directions, &mut self.scratch, &mut self.trees);
     }
 
-    /// The mean over all samples of a pixel: those of them that have no ray are black.
-    fn mean_xyz(&mut self, view: &View<'_>, rays: Range<usize>, samples: u32) -> [f32; 3] {
-        let count = f64::from(samples);
-        let mut sum = [0.0; 3];
-        for ray in rays {
-            let xyz = view
-                .shader
-                .xyz(&self.trees, self.trees.roots[ray], &mut self.shading);
-            for (sum, value) in sum.iter_mut().zip(xyz) {
-                *sum += value;
+    /// Writes the means over all samples of each pixel: those that have no ray are black.
+    fn shade(
+        &mut self,
+        (image, view, part): (usize, &View<'_>, &mut Part<'_>),
+        row: &Row<'_>,
+        piece: &Piece,
+        stop: &AtomicBool,
+    ) -> Result<(), Stopped> {
+        let count = row.samples.count();
+        for (x, rays) in &self.pixels {
+            let mut sum = match piece.samples.start {
+                0 => [0.0; 3],
+                _ => self.sums[image],
+            };
+            for ray in rays.clone() {
+                if ray % RAYS_BETWEEN_LOOKS == 0 {
+                    go_on(stop)?;
+                }
+                let root = self.trees.roots[ray];
+                let xyz = view.shader().xyz(&self.trees, root, &mut self.shading);
+                for (sum, value) in sum.iter_mut().zip(xyz) {
+                    *sum += value;
+                }
+            }
+            if piece.samples.end == count {
+                // What f32 cannot hold is counted when the film is developed.
+                part.xyz[row.place(*x)] = sum.map(|v| (v / f64::from(count)) as f32);
+            } else {
+                self.sums[image] = sum;
             }
         }
-        // What f32 cannot hold is counted when the film is developed.
-        sum.map(|v| (v / count) as f32)
+        Ok(())
     }
 
-    fn write_layers(&self, view: &View<'_>, ray: usize, at: usize, part: &mut Part<'_>) {
+    /// Writes the layers of pixels whose central samples are in the piece.
+    fn write_layers(&mut self, view: &View<'_>, row: &Row<'_>, piece: &Piece, part: &mut Part<'_>) {
+        if part.layers.is_empty() {
+            return;
+        }
+        for (x, rays) in &self.pixels {
+            if piece.samples.start == 0 {
+                self.central = row.central_sample(*x);
+            }
+            if piece.samples.contains(&self.central) {
+                let of = (&piece.samples, rays);
+                if let Some(ray) = row.ray_of(view, *x, self.central, of) {
+                    self.write_surface(view, ray, row.place(*x), part);
+                }
+            }
+        }
+    }
+
+    /// Writes what the layers say of the surface that a ray meets first, if any.
+    fn write_surface(&self, view: &View<'_>, ray: usize, at: usize, part: &mut Part<'_>) {
         let Some(Node {
             seen: Seen::Surface(surface),
             doppler,
@@ -202,7 +249,7 @@ impl Painter {
                 Layer::Distance => path.distance,
                 Layer::EmissionTime => path.emission.t,
                 Layer::Worldline => f64::from(
-                    view.scene.geometry.instances[surface.hit.instance as usize].worldline,
+                    view.scene().geometry.instances[surface.hit.instance as usize].worldline,
                 ),
             }
             .clamp(f64::from(f32::MIN), f64::from(f32::MAX)) as f32;
@@ -210,30 +257,21 @@ impl Painter {
     }
 }
 
-/// Which of a pixel's `rays` belongs to the sample nearest to its centre, if that one has a ray.
-fn central_ray(
-    view: &View<'_>,
-    samples: &Samples,
-    row: &Row<'_>,
-    x: u32,
-    rays: Range<usize>,
-) -> Option<usize> {
-    let central = central_sample(samples, x, row.number);
-    if rays.len() == samples.count() as usize {
-        return Some(rays.start + central as usize);
-    }
-    // Few pixels are at the edge of what is seen: the camera is asked again which samples lack.
-    let has_ray = |&index: &u32| row.looks_along(view, samples, x, index).is_some();
-    has_ray(&central).then(|| rays.start + (0..central).filter(has_ray).count())
+/// How many rays are traced together.
+fn rays_at_once(view: &View<'_>) -> u32 {
+    let most = if view.branches() {
+        RAYS_WITH_TREES
+    } else {
+        RAYS
+    };
+    let lamps = view.scene().lights.len().max(1);
+    most.min((LAMPS / lamps).max(1) as u32)
 }
 
-/// The sample nearest to the pixel's centre, whose surface the layers describe.
-fn central_sample(samples: &Samples, x: u32, y: u32) -> u32 {
-    let off = |index: u32| {
-        let [dx, dy] = samples.position(x, y, index);
-        (dx - 0.5).powi(2) + (dy - 0.5).powi(2)
-    };
-    (0..samples.count())
-        .min_by(|&a, &b| off(a).total_cmp(&off(b)))
-        .unwrap_or(0)
+fn go_on(stop: &AtomicBool) -> Result<(), Stopped> {
+    if stop.load(Ordering::Relaxed) {
+        Err(Stopped)
+    } else {
+        Ok(())
+    }
 }

@@ -1,13 +1,23 @@
 //! Several images in one: those that share shade trees are traced once and shaded each.
 
-use super::{Options, render};
+use super::band::empty_film;
+use super::expose::{Stopped, expose};
+use super::profile::Profile;
+use super::view::{Standings, Views};
+use super::{Options, channels};
 use crate::film::Film;
 use crate::plan::MotionError;
 use crate::scene::Scene;
 use crate::shot::Shot;
-use crate::trace::Stage;
+use crate::trace::{Samples, Stage};
+use rayon::prelude::*;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
+
+/// Most memory of the shaders of images that are traced together, bytes: some MB each over a few
+/// dozen lamps and materials, 100 MB where there are as many as are tabulated. Where there is more,
+/// the trace is repeated.
+const SHADERS: usize = 256 << 20;
 
 /// One of the images that share a trace. They may be of different shots.
 #[derive(Clone, Copy)]
@@ -30,6 +40,7 @@ pub struct Watch<'a> {
 }
 
 /// Images rendered together.
+#[derive(Debug, Default)]
 pub struct Together {
     /// One for each member.
     pub films: Vec<Film>,
@@ -37,7 +48,7 @@ pub struct Together {
     pub prepare: f64,
     /// rays traced,
     pub trace: f64,
-    /// shade trees to light, of all images.
+    /// shade trees to light, of all images. The three add up to the whole.
     pub shade: f64,
 }
 
@@ -52,8 +63,17 @@ pub enum TogetherError {
     Stopped,
 }
 
+impl From<Stopped> for TogetherError {
+    fn from(Stopped: Stopped) -> Self {
+        Self::Stopped
+    }
+}
+
 /// Renders images that share shade trees ([`FrameKey::trace`](crate::plan::FrameKey) equal), to the
 /// same bytes as each alone.
+///
+/// Trees are those of the first member. Beside the films ([`film_bytes`](super::film_bytes)) and a
+/// bounded part for curves and tables, memory does not grow with the number of members.
 ///
 /// # Errors
 /// Where a worldline has no velocity, or when asked to stop.
@@ -63,19 +83,84 @@ pub fn render_together(
     options: &Options,
     watch: Watch<'_>,
 ) -> Result<Together, TogetherError> {
-    let begun = Instant::now();
-    let mut films = Vec::new();
-    for member in members {
-        if watch.stop.load(Ordering::Relaxed) {
+    render_all(members, stage, options, watch, None)
+}
+
+/// Renders one image.
+pub(super) fn render_one(
+    member: Member<'_>,
+    stage: &Stage,
+    options: &Options,
+    done: &(dyn Fn(u64) + Sync),
+    profile: Option<&Profile>,
+) -> Result<Film, MotionError> {
+    let stop = &AtomicBool::new(false);
+    let rendered = match render_all(&[member], stage, options, Watch { done, stop }, profile) {
+        Err(TogetherError::Motion(error)) => return Err(error),
+        rendered => rendered.expect("nobody else holds what would stop it"),
+    };
+    let film = rendered.films.into_iter().next();
+    Ok(film.expect("each member has a film"))
+}
+
+fn render_all(
+    members: &[Member<'_>],
+    stage: &Stage,
+    options: &Options,
+    watch: Watch<'_>,
+    profile: Option<&Profile>,
+) -> Result<Together, TogetherError> {
+    let mut together = Together::default();
+    let Some(first) = members.first() else {
+        return Ok(together);
+    };
+    let samples = Samples::new(options.samples, first.shot.image.filter);
+    let mut rest = members;
+    while !rest.is_empty() {
+        let begun = Instant::now();
+        let group = prepare(rest, stage, options, watch.stop)?;
+        let (now, later) = rest.split_at(group.len());
+        rest = later;
+        let film = |member: &Member<'_>| empty_film(options, channels(member.shot));
+        let mut films: Vec<Film> = now.iter().map(film).collect();
+        let prepared = Instant::now();
+        let shares = expose(&group, &samples, options, &mut films, watch, profile)?;
+        drop(group);
+        let exposing = prepared.elapsed().as_secs_f64();
+        let preparing = (prepared - begun).as_secs_f64();
+        if let Some(profile) = profile {
+            profile.add(|sum| sum.prepare += preparing);
+        }
+        together.films.extend(films);
+        together.prepare += preparing;
+        together.trace += exposing * shares.trace;
+        together.shade += exposing * shares.shade;
+    }
+    Ok(together)
+}
+
+/// Makes views of the first member and of as many more as may be held at once.
+fn prepare<'a>(
+    members: &[Member<'a>],
+    stage: &'a Stage,
+    options: &Options,
+    stop: &AtomicBool,
+) -> Result<Vec<Views<'a>>, TogetherError> {
+    let standings = Standings::default();
+    let views = |member: &Member<'a>| {
+        if stop.load(Ordering::Relaxed) {
             return Err(TogetherError::Stopped);
         }
-        let Member { shot, frame, scene } = *member;
-        films.push(render(shot, frame, scene, stage, options, watch.done)?);
-    }
-    Ok(Together {
-        films,
-        prepare: 0.0,
-        trace: begun.elapsed().as_secs_f64(),
-        shade: 0.0,
-    })
+        Ok(Views::new(*member, stage, options.height, &standings)?)
+    };
+    let Some((first, others)) = members.split_first() else {
+        return Ok(Vec::new());
+    };
+    let first = views(first)?;
+    let more = (SHADERS / first.bytes().max(1)).min(others.len());
+    let others: Vec<Views<'a>> = others[..more]
+        .par_iter()
+        .map(views)
+        .collect::<Result<_, _>>()?;
+    Ok(std::iter::once(first).chain(others).collect())
 }

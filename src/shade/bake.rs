@@ -27,6 +27,19 @@ impl MaterialCurves {
         [&self.diffuse, &self.highlight].into_iter()
     }
 
+    /// Memory of curves and tables, bytes.
+    pub(super) fn bytes(&self) -> usize {
+        let reflecting = |r: &Reflecting| {
+            let tables = r.tables.iter().map(XyzTable::bytes);
+            r.reflectance.bytes() + tables.sum::<usize>()
+        };
+        let passing = [&self.mirror, &self.refraction].into_iter().flatten();
+        self.reflecting().flatten().map(reflecting).sum::<usize>()
+            + passing.map(Curve::bytes).sum::<usize>()
+            + self.emission.as_ref().map_or(0, Sight::bytes)
+            + self.glow.as_ref().map_or(0, Glow::bytes)
+    }
+
     /// The share of light that a term passes on.
     pub(super) fn passing(&self, term: Term) -> Option<&Curve> {
         match term {
@@ -52,6 +65,11 @@ pub(super) struct Sight {
 }
 
 impl Sight {
+    /// Memory of curve and table, bytes.
+    pub(super) fn bytes(&self) -> usize {
+        self.curve.bytes() + self.table.bytes()
+    }
+
     /// XYZ under the Doppler factor `d`.
     pub(super) fn xyz(
         &self,

@@ -123,6 +123,12 @@ impl<H: Holding> ComponentShader<H> {
         }
     }
 
+    /// How many spectra it holds, at most.
+    pub(super) fn held(&self) -> usize {
+        const TERMS: usize = 6;
+        TERMS * self.surfaces.len() + self.emitters.len()
+    }
+
     /// What the camera receives along a ray.
     #[inline]
     pub(super) fn received<'a>(

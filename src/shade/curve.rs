@@ -46,6 +46,11 @@ impl Curve {
             .min(f64::MAX)
     }
 
+    /// Memory of its table, bytes.
+    pub(super) fn bytes(&self) -> usize {
+        self.baked.as_ref().map_or(0, Baked::bytes)
+    }
+
     /// The value everywhere, for a curve that is the same everywhere.
     pub(super) fn constant(&self) -> Option<f64> {
         matches!(*self.spectrum, Spectrum::Constant(_))

@@ -75,6 +75,17 @@ impl CurveShader {
         }
     }
 
+    /// Memory of curves and tables, bytes.
+    pub(super) fn bytes(&self) -> usize {
+        self.surfaces
+            .iter()
+            .map(MaterialCurves::bytes)
+            .sum::<usize>()
+            + self.emitters.iter().map(Sight::bytes).sum::<usize>()
+            + self.sky.bytes()
+            + self.bodies.as_ref().map_or(0, |bodies| bodies.bytes())
+    }
+
     /// What the camera receives along a ray, in the sensor's channels: XYZ (cd/m²), or the totals of
     /// three bands (W·m⁻²·sr⁻¹).
     pub(super) fn xyz(

@@ -45,6 +45,11 @@ impl LineShader {
         }
     }
 
+    /// Memory of spectra, bytes.
+    pub(super) fn bytes(&self) -> usize {
+        self.shader.held() * self.shader.holding.axis.count() * size_of::<f64>()
+    }
+
     /// What the camera receives along a ray, in the sensor's channels.
     pub(super) fn xyz(&self, trees: &ShadeTrees, root: Root, walk: &mut Walk<Lines>) -> [f64; 3] {
         self.shader

@@ -39,6 +39,11 @@ impl RgbShader {
         }
     }
 
+    /// Memory of spectra, bytes.
+    pub(super) fn bytes(&self) -> usize {
+        self.shader.held() * size_of::<[f64; 3]>() + WAVELENGTHS * size_of::<[f64; 4]>()
+    }
+
     /// What the camera receives along a ray, in the sensor's channels.
     #[inline]
     pub(super) fn xyz(

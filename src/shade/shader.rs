@@ -102,6 +102,15 @@ impl Shader {
         }
     }
 
+    /// Memory of its curves and tables, bytes, but for what it shares with the scene.
+    pub fn bytes(&self) -> usize {
+        match &self.held {
+            Held::Curves(curves) | Held::Exact(curves, _) => curves.bytes(),
+            Held::Lines(lines) => lines.bytes(),
+            Held::Rgb(rgb) => rgb.bytes(),
+        }
+    }
+
     /// The sensor's channels of spectral radiance at [`Shader::wavelengths_nm`].
     pub fn xyz_of(&self, radiance: &[f64]) -> [f64; 3] {
         self.sensor.xyz(radiance)

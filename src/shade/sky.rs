@@ -57,6 +57,12 @@ impl SkyShade {
         }
     }
 
+    /// Memory of its curves, bytes.
+    pub(super) fn bytes(&self) -> usize {
+        self.constant.as_ref().map_or(0, Sight::bytes)
+            + self.image.as_ref().map_or(0, |image| image.d65.bytes())
+    }
+
     /// The spectrum that is the same all around.
     pub(super) fn constant(&self) -> Option<&Sight> {
         self.constant.as_ref()

@@ -70,6 +70,11 @@ impl XyzTable {
         }
     }
 
+    /// Memory of its entries, bytes.
+    pub(super) fn bytes(&self) -> usize {
+        size_of_val(&*self.entries)
+    }
+
     /// XYZ, or band totals, under the shift D = exp(`ln_doppler`); never negative.
     #[inline(always)]
     pub(super) fn at(&self, ln_doppler: f64) -> [f64; 3] {

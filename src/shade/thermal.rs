@@ -68,6 +68,13 @@ impl BlackBodies {
             .collect()
     }
 
+    /// Memory of the table, bytes.
+    pub(super) fn bytes(&self) -> usize {
+        self.entries
+            .get()
+            .map_or(0, |entries| size_of_val(&**entries))
+    }
+
     /// XYZ (cd/m²), or band totals (W·m⁻²·sr⁻¹), of a black body.
     #[inline(always)]
     pub(super) fn xyz(&self, kelvin: f64) -> [f64; 3] {
@@ -140,6 +147,11 @@ impl Glow {
             self.table = Some(table(&|d, out| self.read(d, axis, out)));
         }
         self
+    }
+
+    /// Memory of its table, bytes.
+    pub(super) fn bytes(&self) -> usize {
+        self.table.as_ref().map_or(0, XyzTable::bytes)
     }
 
     /// Spectral radiance at a wavelength (nm) in the rest frame of what glows; finite.

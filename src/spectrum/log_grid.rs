@@ -209,6 +209,11 @@ impl Baked {
         })
     }
 
+    /// Memory of its rows, bytes.
+    pub fn bytes(&self) -> usize {
+        size_of_val(&*self.rows)
+    }
+
     /// Factor of [`Shifted`] values: the curve's largest value.
     pub fn peak(&self) -> f64 {
         self.peak

@@ -1,0 +1,74 @@
+//! Films exposed, a band of rows to a thread: each piece of a row is traced once, and shaded for
+//! every image.
+
+use super::band::{BAND, bands};
+use super::paint::{Painter, Row};
+use super::profile::Lap;
+use super::view::{View, Views};
+use super::{Options, Profile, Watch};
+use crate::film::Film;
+use crate::trace::Samples;
+use rayon::prelude::*;
+
+/// It was asked to stop.
+#[derive(Debug)]
+pub(super) struct Stopped;
+
+/// What of the time went into what: the shares add up to 1.
+pub(super) struct Shares {
+    pub(super) trace: f64,
+    pub(super) shade: f64,
+}
+
+/// Exposes a film for each of the images, whose trees are those of the first.
+pub(super) fn expose(
+    images: &[Views<'_>],
+    samples: &Samples,
+    options: &Options,
+    films: &mut [Film],
+    watch: Watch<'_>,
+    profile: Option<&Profile>,
+) -> Result<Shares, Stopped> {
+    let [trace, shade] = bands(films)
+        .into_par_iter()
+        .enumerate()
+        .map_init(Painter::default, |painter, (band, mut parts)| {
+            painter.lap = profile.map(|_| Lap::default());
+            painter.seconds = [0.0; 2];
+            let first = (band * BAND) as u32;
+            let last = (first + BAND as u32).min(options.height);
+            for number in first..last {
+                let views = of_row(images, number);
+                let row = Row {
+                    number,
+                    in_band: (number - first) as usize,
+                    options,
+                    samples,
+                };
+                painter.paint(&views, &row, &mut parts, watch)?;
+            }
+            if let Some((lead, others)) = parts.split_first_mut() {
+                others.iter_mut().for_each(|part| part.copy_layers(lead));
+            }
+            if let (Some(profile), Some(lap)) = (profile, &painter.lap) {
+                lap.report(profile);
+            }
+            Ok(painter.seconds)
+        })
+        .try_reduce(|| [0.0; 2], |a, b| Ok([a[0] + b[0], a[1] + b[1]]))?;
+    let whole = (trace + shade).max(f64::MIN_POSITIVE);
+    Ok(Shares {
+        trace: trace / whole,
+        shade: 1.0 - trace / whole,
+    })
+}
+
+/// The views of a row, of which the first traces.
+fn of_row<'a, 'b>(images: &'a [Views<'b>], row: u32) -> Vec<&'a View<'b>> {
+    let views: Vec<&View<'_>> = images.iter().map(|image| image.of_row(row)).collect();
+    debug_assert!(
+        views.iter().all(|view| view.traces_like(views[0])),
+        "images that share a trace agree on what it reads"
+    );
+    views
+}

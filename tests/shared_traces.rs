@@ -1,0 +1,184 @@
+//! Images that share a trace: each is to the bit what it is alone, whatever tells them apart and on
+//! however many threads; and together they can be stopped, and say where their time went.
+#![expect(
+    clippy::unwrap_used,
+    reason = "a test that cannot be set up has failed"
+)]
+
+#[path = "shared_traces/together.rs"]
+mod together;
+#[path = "shared_traces/watched.rs"]
+mod watched;
+
+use restframe::film::Film;
+use restframe::queue::Prepared;
+use restframe::render::{Member, Options, Together, TogetherError, Watch, render, render_together};
+use restframe::scene::Scene;
+use restframe::shot::Layer;
+use restframe::trace::Stage;
+use std::path::Path;
+use std::sync::atomic::AtomicBool;
+
+/// Balls that move, one of them warm, and a wall; lamps in both frames. What stands in capitals is
+/// what images may differ in, and what it is if nobody says.
+const SHOT: &str = r#"
+[image]
+size = [32, 18]
+FILTER
+[worldline.fast]
+velocity = [0.6, 0.1, 0]
+passes = [-0.5, 0, 0]
+[[model]]
+name = "balls"
+file = "SPHERE"
+worldline = "fast"
+array = { count = [3, 2, 1], step = [2.2, 2.4, 0], centered = true }
+material = "paint"
+[[model]]
+name = "wall"
+file = "SPHERE"
+translate = [0.5, 0, -6]
+scale = 3
+material = "wall"
+[material.paint]
+diffuse = { weight = WEIGHT, spectrum = PAINT }
+highlight = { weight = 0.2, spectrum = 1.0, exponent = 40 }
+emission = { scale = 1e-3, spectrum = { gaussian = { center = 560, width = 30 } } }
+thermal = { temperature = KELVIN, emissivity = EMISSIVITY, curve = "peak", strength = 0.01 }
+[material.wall]
+diffuse = { weight = 0.5, spectrum = { rgb = [0.2, 0.4, 0.9] } }
+PASSES
+[[light]]
+kind = "point"
+position = [3, 5, 6]
+intensity = POWER
+spectrum = LAMP
+[[light]]
+kind = "spot"
+worldline = "fast"
+position = [-3, 6, 5]
+direction = [0.4, -1, -0.8]
+inner = 20
+outer = 50
+intensity = 3000
+[[light]]
+kind = "sun"
+direction = [-1, -1, -1]
+intensity = 20
+[background]
+worldline = "lab"
+SKY
+[camera]
+position = [0, 0, 9]
+hfov = 60
+CAMERA
+[effects]
+EFFECTS
+SPLICE
+[sensor]
+exposure = EXPOSURE
+SENSOR
+[accuracy]
+ACCURACY
+"#;
+
+const DEFAULTS: &[(&str, &str)] = &[
+    ("FILTER", ""),
+    ("WEIGHT", "0.7"),
+    ("PAINT", "{ gaussian = { center = 600, width = 30 } }"),
+    ("KELVIN", "3000"),
+    ("EMISSIVITY", "1.0"),
+    ("PASSES", ""),
+    ("POWER", "2000"),
+    ("LAMP", "1.0"),
+    ("SKY", "spectrum = 1e-3"),
+    ("CAMERA", ""),
+    ("EFFECTS", ""),
+    ("SPLICE", ""),
+    ("EXPOSURE", "0"),
+    ("SENSOR", ""),
+    ("ACCURACY", ""),
+];
+
+/// An image of a shot, and its film when rendered alone.
+struct Image {
+    prepared: Prepared,
+    scene: Scene,
+    alone: Film,
+}
+
+/// What stands in place of words in capitals.
+type Changes<'a> = &'a [(&'a str, &'a str)];
+
+fn prepared(changes: &[Changes<'_>]) -> Prepared {
+    let sphere = Path::new(env!("CARGO_MANIFEST_DIR")).join("assets/sphere.obj");
+    let mut text = SHOT.replace("SPHERE", sphere.to_str().unwrap());
+    for (word, value) in changes.iter().copied().flatten().chain(DEFAULTS) {
+        text = text.replace(word, value);
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("shot.toml");
+    std::fs::write(&path, text).unwrap();
+    Prepared::read(&path).unwrap()
+}
+
+/// Frame 1 of a shot, and its bodies.
+fn scene(prepared: &Prepared) -> (Scene, Stage) {
+    let scene = Scene::resolve(&prepared.shot, &prepared.library, 1, None).unwrap();
+    let stage = Stage::build(&scene.geometry, None);
+    (scene, stage)
+}
+
+impl Image {
+    fn new(changes: &[Changes<'_>], options: &Options) -> Self {
+        let prepared = prepared(changes);
+        let (scene, stage) = scene(&prepared);
+        let alone = render(&prepared.shot, 1, &scene, &stage, options, &|_| ()).unwrap();
+        Self {
+            prepared,
+            scene,
+            alone,
+        }
+    }
+
+    fn member(&self) -> Member<'_> {
+        Member {
+            shot: &self.prepared.shot,
+            frame: 1,
+            scene: &self.scene,
+        }
+    }
+}
+
+fn options(samples: u32) -> Options {
+    Options {
+        width: 32,
+        height: 18,
+        samples,
+        layers: vec![
+            Layer::Doppler,
+            Layer::Distance,
+            Layer::EmissionTime,
+            Layer::Worldline,
+        ],
+    }
+}
+
+/// Renders images on so many threads.
+fn together(
+    threads: usize,
+    members: &[Member<'_>],
+    stage: &Stage,
+    options: &Options,
+) -> Result<Together, TogetherError> {
+    let pool = rayon::ThreadPoolBuilder::new()
+        .num_threads(threads)
+        .build()
+        .unwrap();
+    let stop = &AtomicBool::new(false);
+    let watch = Watch {
+        done: &|_| (),
+        stop,
+    };
+    pool.install(|| render_together(members, stage, options, watch))
+}
