@@ -19,7 +19,7 @@ pub mod raster;
 
 pub use develop::{Developed, Development, develop};
 pub use expose::{auto_exposure, luminance_percentile};
-pub use metadata::{Metadata, SOFTWARE};
+pub use metadata::{Metadata, SOFTWARE, rational_rate};
 
 /// A picture as the sensor gathered it.
 #[derive(Debug, Clone, Default, PartialEq)]
