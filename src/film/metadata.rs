@@ -74,9 +74,9 @@ impl Metadata {
     }
 }
 
-/// The broadcast rates (23.976, 29.97, 59.94 …) as n·1000/1001, others by the least denominator
-/// up to 1000.
-fn rational_rate(rate: f64) -> Option<(i32, u32)> {
+/// A frame rate as a fraction: the broadcast rates (23.976, 29.97, 59.94 …) as n·1000/1001, others
+/// by the least denominator up to 1000. None if it is not above 0, or beyond a million.
+pub fn rational_rate(rate: f64) -> Option<(i32, u32)> {
     const TOLERANCE: f64 = 1e-6;
     const BROADCAST_TOLERANCE: f64 = 1e-4;
     if !(rate > 0.0 && rate < 1e6) {

@@ -20,7 +20,7 @@ pub mod raster;
 
 pub use develop::{Developed, Development, develop};
 pub use expose::{auto_exposure, luminance_percentile};
-pub use metadata::{FINGERPRINT, Metadata, SOFTWARE};
+pub use metadata::{FINGERPRINT, Metadata, SOFTWARE, rational_rate};
 
 /// A picture as the sensor gathered it.
 #[derive(Debug, Clone, Default, PartialEq)]

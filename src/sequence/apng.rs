@@ -1,0 +1,75 @@
+//! An animated PNG: every frame with all its colours. W3C, Portable Network Graphics (Third
+//! Edition), 2025: acTL, fcTL, fdAT.
+
+use super::draft::Draft;
+use super::still::Still;
+use super::target::Target;
+use std::fs::File;
+use std::io::BufWriter;
+use std::path::PathBuf;
+
+/// An animation in the making.
+pub(super) struct Apng {
+    draft: Draft,
+    writer: png::Writer<BufWriter<File>>,
+}
+
+impl Apng {
+    /// Begins one of so many frames, `rate` of them a second as a fraction; it plays forever.
+    pub(super) fn new(
+        draft: Draft,
+        [width, height]: [u32; 2],
+        frames: u32,
+        rate: (i32, u32),
+    ) -> Result<Self, String> {
+        let begin = || {
+            let mut encoder = png::Encoder::new(draft.writer()?, width, height);
+            encoder.set_color(png::ColorType::Rgb);
+            encoder.set_depth(png::BitDepth::Eight);
+            encoder.set_source_srgb(png::SrgbRenderingIntent::RelativeColorimetric);
+            encoder.set_animated(frames, 0)?;
+            let (numerator, denominator) = delay(rate);
+            encoder.set_frame_delay(numerator, denominator)?;
+            encoder.write_header()
+        };
+        let writer = begin().map_err(|error| error.to_string())?;
+        Ok(Self { draft, writer })
+    }
+}
+
+impl Target for Apng {
+    fn add(&mut self, _: u32, still: &Still) -> Result<(), String> {
+        self.writer
+            .write_image_data(&still.rgb8)
+            .map_err(|error| error.to_string())
+    }
+
+    fn finish(self: Box<Self>) -> Result<PathBuf, String> {
+        self.writer.finish().map_err(|error| error.to_string())?;
+        self.draft.keep().map_err(|error| error.to_string())
+    }
+}
+
+/// Seconds of a frame as a fraction of 16 bits: exact where it fits, else to 10⁻³ of it or to what
+/// 16 bits can hold.
+fn delay((numerator, denominator): (i32, u32)) -> (u16, u16) {
+    let (rate, over) = (f64::from(numerator), f64::from(denominator));
+    let shrink = (rate.max(over) / f64::from(u16::MAX)).max(1.0);
+    let fit = |value: f64| (value / shrink).round().clamp(1.0, f64::from(u16::MAX)) as u16;
+    (fit(over), fit(rate))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::delay;
+
+    #[test]
+    fn delays_of_usual_rates_are_exact() {
+        assert_eq!(delay((24, 1)), (1, 24));
+        assert_eq!(delay((24_000, 1001)), (1001, 24_000));
+        assert_eq!(delay((25, 2)), (2, 25));
+        let (n, d) = delay((120_000, 1001));
+        let exact = 1001.0 / 120_000.0;
+        assert!((f64::from(n) / f64::from(d) / exact - 1.0).abs() < 1e-3);
+    }
+}

@@ -1,0 +1,233 @@
+//! Sheets, animations and videos of a shot's frames, all in one pass over them.
+//!
+//! Nothing is made of a sequence in which a frame is missing or wrong. Memory is bounded by a
+//! picture a thread, a row of the sheet and a palette, however long the sequence is.
+
+use super::apng::Apng;
+use super::draft::Draft;
+use super::finding::{Finding, Kind};
+use super::gif::{self, Gif};
+use super::ledger;
+use super::output::Output;
+use super::palette::Palette;
+use super::parts::Parts;
+use super::sheet::Sheet;
+use super::still::{self, Still, StillError};
+use super::target::Target;
+use super::verify::verify;
+use super::video::{self, Video};
+use crate::film::rational_rate;
+use crate::queue::{Reel, ReelError, Status};
+use rayon::prelude::*;
+use std::path::PathBuf;
+
+/// Findings that a message quotes.
+const QUOTED: usize = 8;
+
+/// Why not all was assembled.
+#[derive(Debug, thiserror::Error)]
+pub enum AssembleError {
+    /// Frames are missing or wrong.
+    #[error(
+        "nothing is assembled: {}; remove what is broken and render the shot: what is sound is kept",
+        quoted(.0)
+    )]
+    Refused(Vec<Finding>),
+    /// A frame that was sound a moment ago.
+    #[error("nothing is assembled: {0}")]
+    Still(#[from] StillError),
+    /// The folder cannot be read.
+    #[error(transparent)]
+    Reel(#[from] ReelError),
+    /// Some files were made and others not.
+    #[error("{}", .failures.join("; "))]
+    Some {
+        /// What was made.
+        made: Vec<PathBuf>,
+        /// What was not, each as `FILE: WHY`.
+        failures: Vec<String>,
+    },
+}
+
+fn quoted(findings: &[Finding]) -> String {
+    let shown = findings.iter().take(QUOTED).map(ToString::to_string);
+    let mut words: Vec<String> = shown.collect();
+    if findings.len() > QUOTED {
+        words.push(format!("and {} more", findings.len() - QUOTED));
+    }
+    words.join("; ")
+}
+
+/// Assembles all that a shot asks for, be it there already or not; returns the files. `notes` is
+/// told what one should know.
+///
+/// # Errors
+/// When a frame is missing or wrong nothing is made; when a file cannot be made the others are.
+pub fn assemble(reel: &Reel, notes: &dyn Fn(&str)) -> Result<Vec<PathBuf>, AssembleError> {
+    make(reel, &Output::of(&reel.shot().sequence), notes)
+}
+
+/// Assembles, at the end of a shot's rendering, what is not there or is of other frames; nothing
+/// while frames are missing, as others may be at work on them. The caller holds the claim on the
+/// shot's sequence, so that no two processes do this at once.
+///
+/// # Errors
+/// As [`assemble`].
+pub fn finish(reel: &mut Reel, notes: &dyn Fn(&str)) -> Result<Vec<PathBuf>, AssembleError> {
+    reel.refresh()?;
+    let fresh = |frame: u32| reel.status(frame, &reel.keys.frame(frame)) == Status::Fresh;
+    if !(1..=reel.shot().shot.frames).all(fresh) {
+        return Ok(Vec::new());
+    }
+    let mut outputs = Output::of(&reel.shot().sequence);
+    outputs.retain(|output| !ledger::is_fresh(reel, *output));
+    make(reel, &outputs, notes)
+}
+
+fn make(
+    reel: &Reel,
+    outputs: &[Output],
+    notes: &dyn Fn(&str),
+) -> Result<Vec<PathBuf>, AssembleError> {
+    if outputs.is_empty() {
+        return Ok(Vec::new());
+    }
+    let (forbidding, others): (Vec<Finding>, Vec<Finding>) = verify(reel)
+        .findings
+        .into_iter()
+        .partition(|finding| finding.kind.forbids_assembling());
+    if !forbidding.is_empty() {
+        return Err(AssembleError::Refused(forbidding));
+    }
+    for finding in others.iter().filter(|f| f.kind == Kind::Outlier) {
+        notes(&format!("warning: {finding}"));
+    }
+    let making = Making {
+        reel,
+        parts: Parts::new(reel.shot(), reel.keys.picture().size),
+        notes,
+    };
+    making.run(outputs)
+}
+
+/// A pass over the frames.
+struct Making<'a> {
+    reel: &'a Reel,
+    parts: Parts,
+    notes: &'a dyn Fn(&str),
+}
+
+type Begun = (Output, Result<Box<dyn Target>, String>);
+
+impl Making<'_> {
+    fn run(&self, outputs: &[Output]) -> Result<Vec<PathBuf>, AssembleError> {
+        let gif = outputs.contains(&Output::Gif);
+        let mut palette = gif.then(|| self.palette()).transpose()?;
+        let mut begun: Vec<Begun> = outputs
+            .iter()
+            .map(|output| (*output, self.begin(*output, &mut palette)))
+            .collect();
+        self.feed(&mut begun)?;
+        let mut made = Vec::new();
+        let mut failures = Vec::new();
+        for (output, target) in begun {
+            match target.and_then(Target::finish) {
+                Ok(path) => {
+                    made.push(path);
+                    if let Err(error) = ledger::remember(self.reel, output) {
+                        (self.notes)(&format!(
+                            "warning: {} will be made again: {error}",
+                            self.name(output)
+                        ));
+                    }
+                }
+                Err(why) => failures.push(format!("{}: {why}", self.name(output))),
+            }
+        }
+        if failures.is_empty() {
+            Ok(made)
+        } else {
+            Err(AssembleError::Some { made, failures })
+        }
+    }
+
+    fn name(&self, output: Output) -> String {
+        self.reel.names.assembled(output.suffix())
+    }
+
+    /// Begins one file.
+    fn begin(
+        &self,
+        output: Output,
+        palette: &mut Option<Palette>,
+    ) -> Result<Box<dyn Target>, String> {
+        let shot = self.reel.shot();
+        let (frames, fps) = (shot.shot.frames, shot.shot.fps);
+        let size = self.parts.shown_size();
+        let name = self.name(output);
+        let draft = Draft::new(&self.reel.folder, &name).map_err(|error| error.to_string())?;
+        let rate = || {
+            let found = rational_rate(fps);
+            found.ok_or_else(|| format!("shot.fps is {fps}; give one from 0.001 to 1000"))
+        };
+        Ok(match output {
+            Output::Sheet => Box::new(Sheet::new(draft, self.reel, &self.parts, self.notes)?),
+            Output::Gif => {
+                if fps > gif::FASTEST {
+                    (self.notes)(&format!(
+                        "warning: {name} has {fps} frames a second; viewers show at most 50 of a GIF"
+                    ));
+                }
+                let palette = palette.take().unwrap_or_else(|| Palette::new([]));
+                Box::new(Gif::new(draft, size, fps, palette)?)
+            }
+            Output::Apng => Box::new(Apng::new(draft, size, frames, rate()?)?),
+            Output::Video(kind) => {
+                let [width, height] = video::even(size);
+                if [width, height] != size {
+                    (self.notes)(&format!(
+                        "{name} is padded to {width} x {height} pixels: videos have even sides"
+                    ));
+                }
+                Box::new(Video::new(draft, kind, size, frames, rate()?)?)
+            }
+        })
+    }
+
+    /// The colours of the sequence, by some of its frames.
+    fn palette(&self) -> Result<Palette, StillError> {
+        let frames = self.reel.shot().shot.frames;
+        let step = frames.div_ceil(gif::SAMPLED_FRAMES).max(1);
+        let mut samples = Vec::new();
+        for frame in (1..=frames).step_by(step as usize) {
+            let still = self.parts.arrange(still::read(self.reel, frame)?);
+            samples.extend(gif::sample(&still, frames));
+        }
+        Ok(Palette::new(samples))
+    }
+
+    /// Hands every frame to every file that has not failed.
+    fn feed(&self, begun: &mut [Begun]) -> Result<(), StillError> {
+        let numbers: Vec<u32> = (1..=self.reel.shot().shot.frames).collect();
+        let (reel, parts) = (self.reel, &self.parts);
+        for some in numbers.chunks(rayon::current_num_threads().max(1)) {
+            if begun.iter().all(|(_, target)| target.is_err()) {
+                break;
+            }
+            let stills: Vec<Result<Still, StillError>> = some
+                .par_iter()
+                .map(|frame| Ok(parts.arrange(still::read(reel, *frame)?)))
+                .collect();
+            for (frame, still) in some.iter().zip(stills) {
+                let still = still?;
+                for (_, target) in begun.iter_mut() {
+                    let taken = target.as_mut().map(|target| target.add(*frame, &still));
+                    if let Ok(Err(why)) = taken {
+                        *target = Err(why);
+                    }
+                }
+            }
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,412 @@
+//! A frame's file to pixels, read to its last byte, with all that can be wrong with it.
+//!
+//! The files may be anybody's: nothing is decoded whose size is not the one expected, so that
+//! memory is bounded by the shot's own image, and no more of a file is read than such an image can
+//! need.
+
+use crate::film::{self, Developed};
+use exr::block::{UncompressedBlock, reader::ChunksReader};
+use exr::error::Error as ExrError;
+use exr::math::Vec2;
+use exr::meta::attribute::{ChannelDescription, ChannelList, SampleType};
+use exr::meta::{BlockDescription, header::Header};
+use exr::prelude::f16;
+use png::DecodingError;
+use std::fs::File;
+use std::io::{self, Cursor, Read};
+use std::path::Path;
+
+/// What a file may have beside its pixels, bytes: the shot's text is at most 4 MiB of it.
+const MOST_METADATA: u64 = 16 << 20;
+
+/// Channels at most: three colours and four layers.
+const MOST_CHANNELS: usize = 7;
+
+/// Bytes a pixel at most: channels of 32 bits, and as much again for what does not compress.
+const MOST_PIXEL: u64 = 2 * 4 * MOST_CHANNELS as u64;
+
+/// What is wrong with a file. Messages continue "FILE: ".
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+pub(super) enum Fault {
+    /// It is not there.
+    #[error("missing")]
+    Missing,
+    /// It has no bytes.
+    #[error("empty: it has no bytes")]
+    Empty,
+    /// It ends too early.
+    #[error("truncated: it ends before the picture does")]
+    Truncated,
+    /// What it holds is no picture of ours.
+    #[error("damaged: {0}")]
+    Damaged(String),
+    /// Another size.
+    #[error("wrong size: {}, not {}", pixels(*found), pixels(*expected))]
+    Size {
+        /// Pixels in a row, and rows.
+        found: [usize; 2],
+        /// What they should be.
+        expected: [usize; 2],
+    },
+    /// The system cannot read it.
+    #[error("unreadable: {0}")]
+    Unreadable(String),
+}
+
+/// A size in words.
+fn pixels([width, height]: [usize; 2]) -> String {
+    format!("{width} x {height} pixels")
+}
+
+/// Pixels of 8 bits, and the channels with values that are not finite, each with how many.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(super) struct Decoded {
+    pub(super) rgb8: Vec<u8>,
+    pub(super) not_finite: Vec<(String, u64)>,
+}
+
+/// The bytes of a file, unless it has more than an image of this size can need.
+pub(super) fn read_bytes(path: &Path, size: [u32; 2]) -> Result<Vec<u8>, Fault> {
+    let most = u64::from(size[0]) * u64::from(size[1]) * MOST_PIXEL + MOST_METADATA;
+    let unreadable = |error: io::Error| match error.kind() {
+        io::ErrorKind::NotFound => Fault::Missing,
+        _ => Fault::Unreadable(error.to_string()),
+    };
+    let file = File::open(path).map_err(unreadable)?;
+    let mut bytes = Vec::new();
+    file.take(most + 1)
+        .read_to_end(&mut bytes)
+        .map_err(unreadable)?;
+    match bytes.len() as u64 {
+        0 => Err(Fault::Empty),
+        length if length > most => Err(Fault::Damaged(format!(
+            "it has more than {most} bytes, and no {} can need so many",
+            pixels(size.map(|side| side as usize))
+        ))),
+        _ => Ok(bytes),
+    }
+}
+
+/// Decodes a PNG of 8-bit RGB, checksums and all.
+pub(super) fn png(bytes: &[u8], size: [u32; 2]) -> Result<Decoded, Fault> {
+    let limits = png::Limits {
+        // A row or two, and what zlib needs.
+        bytes: (64 << 20) + 64 * size[0] as usize,
+    };
+    let mut decoder = png::Decoder::new_with_limits(Cursor::new(bytes), limits);
+    decoder.set_ignore_text_chunk(true);
+    let mut reader = decoder.read_info().map_err(png_fault)?;
+    let info = reader.info();
+    check_size([info.width, info.height].map(|side| side as usize), size)?;
+    if (info.color_type, info.bit_depth) != (png::ColorType::Rgb, png::BitDepth::Eight) {
+        return Err(Fault::Damaged(
+            "its pixels are not red, green and blue of 8 bits".to_owned(),
+        ));
+    }
+    let mut rgb8 = vec![0; size[0] as usize * size[1] as usize * 3];
+    reader.next_frame(&mut rgb8).map_err(png_fault)?;
+    reader.finish().map_err(png_fault)?;
+    Ok(Decoded {
+        rgb8,
+        not_finite: Vec::new(),
+    })
+}
+
+fn png_fault(error: DecodingError) -> Fault {
+    match error {
+        DecodingError::IoError(error) if error.kind() == io::ErrorKind::UnexpectedEof => {
+            Fault::Truncated
+        }
+        error => Fault::Damaged(plain(&error.to_string())),
+    }
+}
+
+/// Decodes an EXR as this program writes it: scan lines of one part, the channels R, G, B, and any
+/// number of others that are only looked through. `encode` is the display's transfer.
+pub(super) fn exr(bytes: &[u8], size: [u32; 2], encode: fn(f64) -> f64) -> Result<Decoded, Fault> {
+    let reader = exr::block::read(Cursor::new(bytes), true).map_err(exr_fault)?;
+    let [header] = reader.headers() else {
+        let parts = reader.headers().len();
+        return Err(Fault::Damaged(format!("it has {parts} parts, not one")));
+    };
+    let Vec2(width, height) = header.layer_size;
+    check_size([width, height], size)?;
+    let mut canvas = Canvas::new(header, encode)?;
+    let channels = header.channels.clone();
+    let chunks = reader.all_chunks(true).map_err(exr_fault)?;
+    for block in chunks.sequential_decompressor(true) {
+        let block = block.map_err(exr_fault)?;
+        canvas.take(&block, &channels)?;
+    }
+    canvas.finish()
+}
+
+fn exr_fault(error: ExrError) -> Fault {
+    let text = error.to_string();
+    // The decoder's words for an end of file.
+    if text.contains("reference to missing bytes") {
+        return Fault::Truncated;
+    }
+    Fault::Damaged(plain(&text))
+}
+
+/// A decoder's message on one line.
+fn plain(text: &str) -> String {
+    text.split_whitespace().collect::<Vec<_>>().join(" ")
+}
+
+fn check_size(found: [usize; 2], expected: [u32; 2]) -> Result<(), Fault> {
+    let expected = expected.map(|side| side as usize);
+    if found == expected {
+        return Ok(());
+    }
+    Err(Fault::Size { found, expected })
+}
+
+/// An EXR's picture as its blocks come.
+struct Canvas {
+    width: usize,
+    channels: Vec<Channel>,
+    encode: fn(f64) -> f64,
+    rgb8: Vec<u8>,
+    /// Which rows have come.
+    seen: Vec<bool>,
+}
+
+struct Channel {
+    name: String,
+    sample_type: SampleType,
+    /// Red, green or blue, by index.
+    shown: Option<usize>,
+    not_finite: u64,
+}
+
+impl Canvas {
+    fn new(header: &Header, encode: fn(f64) -> f64) -> Result<Self, Fault> {
+        let damaged = |what: &str| Err(Fault::Damaged(what.to_owned()));
+        if header.deep || header.blocks != BlockDescription::ScanLines {
+            return damaged("its pixels are not in scan lines");
+        }
+        let list = &header.channels.list;
+        let whole = |channel: &ChannelDescription| {
+            channel.sample_type != SampleType::U32 && channel.sampling == Vec2(1, 1)
+        };
+        let channels: Vec<Channel> = list.iter().map(Channel::new).collect();
+        let shown = channels.iter().filter(|channel| channel.shown.is_some());
+        if shown.count() != 3 || channels.len() > MOST_CHANNELS || !list.iter().all(whole) {
+            return damaged("its channels are not those of a frame");
+        }
+        let Vec2(width, height) = header.layer_size;
+        Ok(Self {
+            width,
+            channels,
+            encode,
+            rgb8: vec![0; width * height * 3],
+            seen: vec![false; height],
+        })
+    }
+
+    /// Takes whole rows, all channels of them.
+    fn take(&mut self, block: &UncompressedBlock, list: &ChannelList) -> Result<(), Fault> {
+        let outside = || Fault::Damaged("a row lies outside of the picture".to_owned());
+        let first = block.index.pixel_position.y();
+        let rows = first..first + block.index.pixel_size.height();
+        let seen = self.seen.get_mut(rows.clone()).ok_or_else(outside)?;
+        seen.fill(true);
+        let mut linear = vec![[0.0; 3]; rows.len() * self.width];
+        for line in block.lines(list) {
+            let at = line.location;
+            let row = (at.position.y() - first) * self.width;
+            let pixels = linear.get_mut(row..row + at.sample_count);
+            let channel = self.channels.get_mut(at.channel);
+            let (Some(pixels), Some(channel)) = (pixels, channel) else {
+                return Err(outside());
+            };
+            match channel.sample_type {
+                SampleType::F16 => {
+                    channel.put(
+                        line.read_samples::<f16>().map(|v| v.map(f16::to_f32)),
+                        pixels,
+                    )?;
+                }
+                _ => channel.put(line.read_samples::<f32>(), pixels)?,
+            }
+        }
+        let developed = Developed {
+            linear,
+            saturated: 0,
+        };
+        let bytes = film::png::to_rgb8(&developed, self.encode);
+        self.rgb8[first * self.width * 3..][..bytes.len()].copy_from_slice(&bytes);
+        Ok(())
+    }
+
+    fn finish(self) -> Result<Decoded, Fault> {
+        if self.seen.contains(&false) {
+            return Err(Fault::Truncated);
+        }
+        let channels = self.channels.into_iter();
+        Ok(Decoded {
+            rgb8: self.rgb8,
+            not_finite: channels
+                .filter(|channel| channel.not_finite > 0)
+                .map(|channel| (channel.name, channel.not_finite))
+                .collect(),
+        })
+    }
+}
+
+impl Channel {
+    fn new(description: &ChannelDescription) -> Self {
+        let name = description.name.to_string();
+        Self {
+            shown: ["R", "G", "B"].iter().position(|shown| *shown == name),
+            name,
+            sample_type: description.sample_type,
+            not_finite: 0,
+        }
+    }
+
+    /// Counts a row's values that are not finite, and puts them where they are shown.
+    fn put(
+        &mut self,
+        values: impl Iterator<Item = exr::error::Result<f32>>,
+        pixels: &mut [[f32; 3]],
+    ) -> Result<(), Fault> {
+        for (value, pixel) in values.zip(pixels) {
+            let value = value.map_err(exr_fault)?;
+            self.not_finite += u64::from(!value.is_finite());
+            if let Some(shown) = self.shown {
+                pixel[shown] = value;
+            }
+        }
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::film::{Layers, Metadata, exr::Depth};
+    use crate::spectrum::color_space;
+
+    const SIZE: [u32; 2] = [19, 37];
+
+    /// A picture of many values, some beyond 1.
+    fn linear() -> Developed {
+        let pixel = |i: u32| [0, 1, 2].map(|c| ((i * 3 + c) % 101) as f32 / 80.0);
+        Developed {
+            linear: (0..SIZE[0] * SIZE[1]).map(pixel).collect(),
+            saturated: 0,
+        }
+    }
+
+    fn exr_bytes(developed: &Developed, depth: Depth, layers: &Layers) -> Vec<u8> {
+        let metadata = Metadata::default();
+        film::exr::encode(SIZE[0], SIZE[1], developed, depth, layers, &metadata).expect("encodes")
+    }
+
+    fn png_bytes(rgb8: &[u8]) -> Vec<u8> {
+        film::png::encode(SIZE[0], SIZE[1], rgb8, &Metadata::default()).expect("encodes")
+    }
+
+    #[test]
+    fn an_exr_is_shown_as_the_png_of_the_same_light() {
+        let developed = linear();
+        let rgb8 = film::png::to_rgb8(&developed, color_space::encode);
+        let bytes = exr_bytes(&developed, Depth::Float, &Layers::default());
+        let shown = exr(&bytes, SIZE, color_space::encode).expect("decodes");
+        assert_eq!(shown.rgb8, rgb8);
+        assert_eq!(png(&png_bytes(&rgb8), SIZE).expect("decodes"), shown);
+    }
+
+    #[test]
+    fn a_half_exr_is_within_a_level_of_the_float_one() {
+        // A half has 11 digits: 2⁻¹² of a value near 1 is a sixteenth of a level.
+        let developed = linear();
+        let rgb8 = film::png::to_rgb8(&developed, color_space::encode);
+        let bytes = exr_bytes(&developed, Depth::Half, &Layers::default());
+        let shown = exr(&bytes, SIZE, color_space::encode).expect("decodes");
+        let apart = shown.rgb8.iter().zip(&rgb8).map(|(a, b)| a.abs_diff(*b));
+        assert!(apart.max() <= Some(1));
+    }
+
+    #[test]
+    fn values_that_are_not_finite_are_counted_in_every_channel() {
+        let mut developed = linear();
+        developed.linear[7][1] = f32::NAN;
+        developed.linear[8][1] = f32::INFINITY;
+        let mut distance = vec![1.0; developed.linear.len()];
+        distance[3] = f32::NEG_INFINITY;
+        let layers = Layers {
+            distance: Some(distance),
+            ..Layers::default()
+        };
+        for depth in [Depth::Float, Depth::Half] {
+            let bytes = exr_bytes(&developed, depth, &layers);
+            let found = exr(&bytes, SIZE, color_space::encode).expect("decodes");
+            let expected = match depth {
+                // What a half cannot hold is clamped when it is written, all but NaN.
+                Depth::Half => [("G".to_owned(), 1), ("distance".to_owned(), 1)],
+                Depth::Float => [("G".to_owned(), 2), ("distance".to_owned(), 1)],
+            };
+            assert_eq!(found.not_finite, expected);
+        }
+    }
+
+    #[test]
+    fn a_file_cut_anywhere_is_a_fault() {
+        let developed = linear();
+        let exr_file = exr_bytes(&developed, Depth::Float, &Layers::default());
+        for end in 0..exr_file.len() {
+            let cut = exr(&exr_file[..end], SIZE, color_space::encode);
+            assert!(cut.is_err(), "{end} of {}", exr_file.len());
+        }
+        let png_file = png_bytes(&film::png::to_rgb8(&developed, color_space::encode));
+        for end in 0..png_file.len() {
+            assert!(
+                png(&png_file[..end], SIZE).is_err(),
+                "{end} of {}",
+                png_file.len()
+            );
+        }
+        let most = exr_file.len() - 40;
+        let fault = exr(&exr_file[..most], SIZE, color_space::encode).expect_err("is cut");
+        assert_eq!(fault, Fault::Truncated);
+        let fault = png(&png_file[..png_file.len() - 40], SIZE).expect_err("is cut");
+        assert_eq!(fault, Fault::Truncated);
+    }
+
+    #[test]
+    fn a_file_with_any_byte_changed_neither_panics_nor_takes_memory() {
+        let developed = linear();
+        let exr_file = exr_bytes(&developed, Depth::Float, &Layers::default());
+        let png_file = png_bytes(&film::png::to_rgb8(&developed, color_space::encode));
+        let mut refused = [0; 2];
+        for value in [0x00, 0x7f, 0x80, 0xff] {
+            for at in 0..exr_file.len() {
+                let mut file = exr_file.clone();
+                file[at] = value;
+                refused[0] += usize::from(exr(&file, SIZE, color_space::encode).is_err());
+            }
+            for at in 0..png_file.len() {
+                let mut file = png_file.clone();
+                file[at] = value;
+                refused[1] += usize::from(png(&file, SIZE).is_err());
+            }
+        }
+        assert!(refused.iter().all(|refused| *refused > 100), "{refused:?}");
+    }
+
+    #[test]
+    fn another_size_is_refused_before_anything_is_decoded() {
+        let bytes = exr_bytes(&linear(), Depth::Float, &Layers::default());
+        let fault = exr(&bytes, [20, 37], color_space::encode).expect_err("is another");
+        assert_eq!(
+            fault.to_string(),
+            "wrong size: 19 x 37 pixels, not 20 x 37 pixels"
+        );
+        let bytes = png_bytes(&film::png::to_rgb8(&linear(), color_space::encode));
+        assert!(matches!(png(&bytes, [1, 1]), Err(Fault::Size { .. })));
+    }
+}

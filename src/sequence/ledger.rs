@@ -1,0 +1,104 @@
+//! What was assembled, and of what: a line of JSON for each file, appended, so that what is still
+//! right is not made again. STEM.sequence.jsonl, beside the manifest.
+
+use super::output::Output;
+use crate::plan::facts;
+use crate::queue::Reel;
+use serde::{Deserialize, Serialize};
+use serde_json::json;
+use std::fs::{self, File, OpenOptions};
+use std::io::{self, Read, Write};
+use std::path::{Path, PathBuf};
+
+/// Raised whenever the same frames make another file than before.
+const EPOCH: u32 = 1;
+
+/// A file that was assembled.
+#[derive(Debug, Serialize, Deserialize)]
+struct Line {
+    /// Its name.
+    assembled: String,
+    /// Hash of all that it was made of.
+    key: String,
+    /// BLAKE3 of the file.
+    blake3: String,
+}
+
+/// Hash of all that a file is made of: its keys in [sequence], what it tells of the shot, and the
+/// frames' fingerprints.
+fn key(reel: &Reel, output: Output) -> String {
+    let shot = reel.shot();
+    let frames = 1..=shot.shot.frames;
+    let told: Vec<String> = match output {
+        Output::Sheet => frames
+            .clone()
+            .map(|frame| facts(shot, frame).map_or_else(|e| e.to_string(), |f| f.caption()))
+            .collect(),
+        _ => Vec::new(),
+    };
+    let fingerprints: Vec<String> = frames
+        .map(|frame| reel.keys.frame(frame).fingerprint)
+        .collect();
+    let sheet = shot.sequence.sheet.filter(|_| output == Output::Sheet);
+    let parts = json!([
+        EPOCH,
+        output.suffix(),
+        sheet,
+        told,
+        shot.sequence.splices,
+        shot.shot.title,
+        shot.shot.fps,
+        fingerprints,
+    ]);
+    blake3::hash(parts.to_string().as_bytes())
+        .to_hex()
+        .to_string()
+}
+
+fn path(reel: &Reel) -> PathBuf {
+    reel.folder.join(reel.names.assembled("sequence.jsonl"))
+}
+
+/// Whether the file is there as it was assembled of just these frames.
+pub(super) fn is_fresh(reel: &Reel, output: Output) -> bool {
+    let name = reel.names.assembled(output.suffix());
+    let text = fs::read(path(reel)).unwrap_or_default();
+    let lines = text.split(|byte| *byte == b'\n');
+    let last = lines
+        .filter_map(|line| serde_json::from_slice::<Line>(line).ok())
+        .filter(|line| line.assembled == name)
+        .last();
+    last.is_some_and(|line| {
+        line.key == key(reel, output)
+            && hash(&reel.folder.join(&name)).is_ok_and(|found| found == line.blake3)
+    })
+}
+
+/// Remembers that the file was assembled of the reel's frames.
+pub(super) fn remember(reel: &Reel, output: Output) -> io::Result<()> {
+    let name = reel.names.assembled(output.suffix());
+    let line = Line {
+        key: key(reel, output),
+        blake3: hash(&reel.folder.join(&name))?,
+        assembled: name,
+    };
+    let text = format!("\n{}\n", serde_json::to_string(&line)?);
+    let mut file = OpenOptions::new()
+        .create(true)
+        .append(true)
+        .open(path(reel))?;
+    file.write_all(text.as_bytes())?;
+    file.sync_all()
+}
+
+fn hash(path: &Path) -> io::Result<String> {
+    let mut file = File::open(path)?;
+    let mut hasher = blake3::Hasher::new();
+    let mut block = vec![0; 1 << 16];
+    loop {
+        match file.read(&mut block)? {
+            0 => return Ok(hasher.finalize().to_hex().to_string()),
+            length => hasher.update(&block[..length]),
+        };
+    }
+}

@@ -1,0 +1,58 @@
+//! What can be assembled of a shot's frames.
+
+use crate::shot::{Sequence, Video};
+
+/// One thing that is assembled, a file.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Output {
+    /// Contact sheet.
+    Sheet,
+    /// Animation of 256 colours.
+    Gif,
+    /// Animation of all colours.
+    Apng,
+    /// Video by ffmpeg.
+    Video(Video),
+}
+
+/// All there are.
+pub(super) const OUTPUTS: [Output; 5] = [
+    Output::Sheet,
+    Output::Gif,
+    Output::Apng,
+    Output::Video(Video::Mp4),
+    Output::Video(Video::Av1),
+];
+
+impl Output {
+    /// What a shot asks for.
+    pub(super) fn of(sequence: &Sequence) -> Vec<Self> {
+        let sheet = sequence.sheet.map(|_| Self::Sheet);
+        let gif = sequence.gif.then_some(Self::Gif);
+        let apng = sequence.apng.then_some(Self::Apng);
+        let video = sequence.video.map(Self::Video);
+        [sheet, gif, apng, video].into_iter().flatten().collect()
+    }
+
+    /// What its file's name ends in.
+    pub(super) fn suffix(self) -> &'static str {
+        match self {
+            Self::Sheet => "sheet.png",
+            Self::Gif => "gif",
+            Self::Apng => "apng",
+            Self::Video(Video::Mp4) => "mp4",
+            Self::Video(Video::Av1) => "av1.mp4",
+        }
+    }
+
+    /// What it is called in the shot.
+    pub(super) fn word(self) -> &'static str {
+        match self {
+            Self::Sheet => "sheet",
+            Self::Gif => "gif",
+            Self::Apng => "apng",
+            Self::Video(Video::Mp4) => "video = \"mp4\"",
+            Self::Video(Video::Av1) => "video = \"av1\"",
+        }
+    }
+}

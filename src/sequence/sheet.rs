@@ -1,0 +1,306 @@
+//! A contact sheet: all frames small, each with what it shows, a title on top.
+//!
+//! Rows of cells are written as they fill, so that a sheet of any length takes the memory of one.
+//! A cell is the frame, reduced in linear light to the width that the shot gives and never
+//! enlarged, and its caption below.
+
+use super::draft::Draft;
+use super::parts::Parts;
+use super::reduce::reduce;
+use super::still::Still;
+use super::target::Target;
+use crate::film::raster;
+use crate::plan::facts;
+use crate::queue::Reel;
+use crate::shot::LARGEST_SIDE;
+use std::fs::File;
+use std::io::{BufWriter, Write};
+use std::path::PathBuf;
+
+/// Between and around cells, pixels.
+const GAP: u32 = 8;
+/// Behind everything: a grey that black frames stand out from.
+const GROUND: u8 = 34;
+/// Least width of a cell, pixels, that the shot can ask for.
+const NARROWEST: u32 = 16;
+
+/// Where everything stands on a sheet, pixels.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Layout {
+    columns: u32,
+    /// Of a cell, and of the frame in it.
+    width: u32,
+    picture: [u32; 2],
+    /// Of a caption's letters and lines.
+    letters: f64,
+    line: u32,
+    lines: u32,
+    title: u32,
+    size: [u32; 2],
+}
+
+impl Layout {
+    fn new(frames: u32, columns: u32, width: u32, shown: [u32; 2], lines: u32) -> Self {
+        let columns = columns.min(frames).max(1);
+        let [across, down] = shown.map(f64::from);
+        let reduced = width.min(shown[0]);
+        let height = (down * f64::from(reduced) / across).round().max(1.0) as u32;
+        let letters = (f64::from(width) / 22.0).clamp(7.0, 14.0);
+        let line = (letters * 1.5).ceil() as u32;
+        let title = (letters * 3.0).ceil() as u32;
+        let rows = u64::from(frames.div_ceil(columns));
+        let cell = u64::from(height + lines * line + GAP);
+        let side = |length: u64| u32::try_from(length).unwrap_or(u32::MAX);
+        Self {
+            columns,
+            width,
+            picture: [reduced, height.min(shown[1])],
+            letters,
+            line,
+            lines,
+            title,
+            size: [
+                side(u64::from(columns) * u64::from(width + GAP) + u64::from(GAP)),
+                side(u64::from(title) + rows * cell),
+            ],
+        }
+    }
+
+    /// The layout whose width is the largest up to the one asked for with which the sheet can be
+    /// held.
+    fn fitting(
+        frames: u32,
+        columns: u32,
+        width: u32,
+        shown: [u32; 2],
+        lines: u32,
+    ) -> Result<Self, String> {
+        let layout = |width| Self::new(frames, columns, width, shown, lines);
+        let fits = |layout: &Self| layout.size.iter().all(|side| *side <= LARGEST_SIDE);
+        let asked = layout(width);
+        if fits(&asked) {
+            return Ok(asked);
+        }
+        let found = (NARROWEST..width).rev().map(layout).find(fits);
+        found.ok_or_else(|| {
+            format!(
+                "a sheet of {frames} frames in {columns} columns is larger than {LARGEST_SIDE} \
+                 pixels a side at any width; set sequence.sheet.columns nearer to {}",
+                f64::from(frames).sqrt().ceil().min(100.0)
+            )
+        })
+    }
+}
+
+/// A sheet in the making.
+pub(super) struct Sheet {
+    draft: Draft,
+    writer: png::StreamWriter<'static, BufWriter<File>>,
+    layout: Layout,
+    captions: Vec<Vec<(u32, String)>>,
+    /// Reduced frames of the row that fills.
+    row: Vec<Still>,
+}
+
+impl Sheet {
+    /// Begins one of a reel's frames, shown by their parts.
+    pub(super) fn new(
+        draft: Draft,
+        reel: &Reel,
+        parts: &Parts,
+        notes: &dyn Fn(&str),
+    ) -> Result<Self, String> {
+        let shot = reel.shot();
+        let asked = shot.sequence.sheet.unwrap_or_default();
+        let frames = shot.shot.frames;
+        let lines = if parts.iter().count() > 1 { 2 } else { 1 };
+        let shown = parts.shown_size();
+        let layout = Layout::fitting(frames, asked.columns, asked.width, shown, lines)?;
+        if layout.width != asked.width {
+            notes(&format!(
+                "{}: frames are {} pixels wide, not {}, since a sheet has at most {LARGEST_SIDE} a side",
+                reel.names.assembled("sheet.png"),
+                layout.width,
+                asked.width
+            ));
+        }
+        let captions = (1..=frames).map(|frame| {
+            let told = facts(shot, frame).map_or_else(|e| e.to_string(), |f| f.caption());
+            let step = layout.picture[0] / parts.iter().count().max(1) as u32;
+            let labels = parts.iter().filter(|part| !part.label.is_empty());
+            let labels = labels
+                .zip(0..)
+                .map(|(part, i)| (i * step, part.label.clone()));
+            std::iter::once((0, told)).chain(labels).collect()
+        });
+        let begin = || {
+            let [width, height] = layout.size;
+            let mut encoder = png::Encoder::new(draft.writer()?, width, height);
+            encoder.set_color(png::ColorType::Rgb);
+            encoder.set_depth(png::BitDepth::Eight);
+            encoder.set_source_srgb(png::SrgbRenderingIntent::RelativeColorimetric);
+            encoder.write_header()?.into_stream_writer()
+        };
+        let writer = begin().map_err(|error: png::EncodingError| error.to_string())?;
+        let mut sheet = Self {
+            captions: captions.collect(),
+            row: Vec::new(),
+            writer,
+            layout,
+            draft,
+        };
+        let title = shot.shot.title.as_deref().unwrap_or(&reel.names.stem);
+        sheet.title(title).map_err(|error| error.to_string())?;
+        Ok(sheet)
+    }
+
+    fn title(&mut self, title: &str) -> std::io::Result<()> {
+        let layout = self.layout;
+        let mut band = Band::new(layout.size[0], layout.title);
+        let letters = layout.letters * 1.4;
+        band.write(letters, &[(GAP, layout.title * 2 / 3, title)]);
+        self.writer.write_all(&band.rgb8)
+    }
+
+    /// Writes the row that has filled: frames, captions, a gap.
+    fn flush(&mut self, first: usize) -> std::io::Result<()> {
+        let layout = self.layout;
+        let below = layout.lines * layout.line + GAP;
+        let left = |column: usize| GAP + column as u32 * (layout.width + GAP);
+        let mut pictures = Band::new(layout.size[0], layout.picture[1]);
+        let mut words = Vec::new();
+        for (column, still) in self.row.iter().enumerate() {
+            pictures.put(left(column), still);
+            for (i, (x, text)) in self.captions[first + column].iter().enumerate() {
+                let line = u32::from(i > 0);
+                let base = line * layout.line + layout.line * 3 / 4;
+                words.push((left(column) + x, base, text.as_str()));
+            }
+        }
+        let mut captions = Band::new(layout.size[0], below);
+        captions.write(layout.letters, &words);
+        self.row.clear();
+        self.writer.write_all(&pictures.rgb8)?;
+        self.writer.write_all(&captions.rgb8)
+    }
+}
+
+impl Target for Sheet {
+    fn add(&mut self, frame: u32, still: &Still) -> Result<(), String> {
+        let [width, height] = self.layout.picture;
+        self.row.push(reduce(still, width, height));
+        let full = self.row.len() == self.layout.columns as usize;
+        if full || frame as usize == self.captions.len() {
+            let first = frame as usize - self.row.len();
+            self.flush(first).map_err(|error| error.to_string())?;
+        }
+        Ok(())
+    }
+
+    fn finish(self: Box<Self>) -> Result<PathBuf, String> {
+        self.writer.finish().map_err(|error| error.to_string())?;
+        self.draft.keep().map_err(|error| error.to_string())
+    }
+}
+
+/// Some rows of the sheet.
+struct Band {
+    width: u32,
+    height: u32,
+    rgb8: Vec<u8>,
+}
+
+impl Band {
+    fn new(width: u32, height: u32) -> Self {
+        let rgb8 = vec![GROUND; width as usize * height as usize * 3];
+        Self {
+            width,
+            height,
+            rgb8,
+        }
+    }
+
+    /// Puts a picture `left` pixels from the left.
+    fn put(&mut self, left: u32, still: &Still) {
+        let line = still.width as usize * 3;
+        let rows = self.rgb8.chunks_exact_mut(self.width as usize * 3);
+        for (row, source) in rows.zip(still.rgb8.chunks_exact(line)) {
+            row[left as usize * 3..][..line].copy_from_slice(source);
+        }
+    }
+
+    /// Writes texts whose base lines begin at points, in letters of a size.
+    fn write(&mut self, letters: f64, texts: &[(u32, u32, &str)]) {
+        let (width, height) = (self.width, self.height);
+        let mut svg = format!(
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" \
+             viewBox=\"0 0 {width} {height}\" font-family=\"Helvetica, Arial, 'Liberation Sans', \
+             sans-serif\" font-size=\"{letters}\" fill=\"#e6e6e6\">"
+        );
+        for (x, y, text) in texts {
+            svg += &format!("<text x=\"{x}\" y=\"{y}\">{}</text>", escaped(text));
+        }
+        svg += "</svg>";
+        let Some(painted) = raster::paint(&svg, width, height) else {
+            return;
+        };
+        let pixels = self.rgb8.as_chunks_mut::<3>().0;
+        for (pixel, over) in pixels.iter_mut().zip(painted.rgba8.as_chunks::<4>().0) {
+            let opacity = u32::from(over[3]);
+            for (under, over) in pixel.iter_mut().zip(over) {
+                let mixed = u32::from(*over) * opacity + u32::from(*under) * (255 - opacity);
+                *under = ((mixed + 127) / 255) as u8;
+            }
+        }
+    }
+}
+
+/// Text as it may stand in an SVG, its blanks kept apart, without what XML cannot hold.
+fn escaped(text: &str) -> String {
+    let mut escaped = String::new();
+    for letter in text.chars() {
+        match letter {
+            '&' => escaped += "&amp;",
+            '<' => escaped += "&lt;",
+            '>' => escaped += "&gt;",
+            ' ' => escaped.push('\u{a0}'),
+            letter if letter.is_control() => {}
+            letter => escaped.push(letter),
+        }
+    }
+    escaped
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_sheet_that_would_be_too_large_has_narrower_frames_or_says_what_to_do() {
+        let usual = Layout::fitting(49, 6, 320, [1280, 720], 1).expect("fits");
+        assert_eq!((usual.width, usual.picture), (320, [320, 180]));
+        let long = Layout::fitting(2000, 6, 320, [1280, 720], 1).expect("fits narrower");
+        assert!(long.width < 320 && long.size[1] <= LARGEST_SIDE, "{long:?}");
+        let wider = Layout::new(2000, 6, long.width + 1, [1280, 720], 1);
+        assert!(wider.size[1] > LARGEST_SIDE);
+        let why = Layout::fitting(1_000_000, 1, 320, [1280, 720], 1).expect_err("cannot");
+        assert!(
+            why.contains("sequence.sheet.columns nearer to 100"),
+            "{why}"
+        );
+    }
+
+    #[test]
+    fn a_small_frame_is_not_enlarged() {
+        let layout = Layout::new(4, 6, 320, [64, 48], 1);
+        assert_eq!((layout.picture, layout.columns), ([64, 48], 4));
+    }
+
+    #[test]
+    fn words_of_a_title_cannot_break_the_drawing() {
+        let mut band = Band::new(40, 20);
+        band.write(12.0, &[(2, 14, "a < b & \"c\" > d\u{1}</text></svg>")]);
+        assert_eq!(escaped("<a>&\u{0} b"), "&lt;a&gt;&amp;\u{a0}b");
+        assert_eq!(band.rgb8.len(), 40 * 20 * 3);
+    }
+}

@@ -1,0 +1,268 @@
+//! A shot's frames looked at one by one: whether each is there, whole, as it should be, and fits
+//! between its neighbours.
+//!
+//! Files are decoded on all threads, one a thread at a time, so that memory is bounded by as many
+//! pictures as there are threads.
+
+use super::decode::{Fault, read_bytes};
+use super::finding::{Finding, Kind, Report};
+use super::orphans::orphans;
+use super::outlier::{Differences, Grid, Outlier};
+use super::still::{decode_as, shown_extension};
+use crate::plan::FrameKey;
+use crate::queue::{Record, Reel, Status};
+use rayon::prelude::*;
+use serde_json::Value;
+use std::path::Path;
+
+/// Frames between two looks at how they differ: enough for all threads.
+const AT_ONCE: usize = 64;
+
+/// Share of its step by which a value of the shot must leave the way between its neighbours to
+/// explain a frame that does: a kink leaves it by a half, a jump by a half or more; smooth keys by
+/// less than a third where the step is not nearly nothing.
+const KINK: f64 = 0.4;
+
+/// Looks at every frame of a reel, and at the files beside them. A folder that is not there has no
+/// frames.
+pub fn verify(reel: &Reel) -> Report {
+    let frames = reel.shot().shot.frames;
+    let mut findings = Vec::new();
+    let mut differences = Differences::default();
+    let numbers: Vec<u32> = (1..=frames).collect();
+    for some in numbers.chunks(AT_ONCE) {
+        let looked: Vec<_> = some.par_iter().map(|frame| look(reel, *frame)).collect();
+        for (found, grid) in looked {
+            findings.extend(found);
+            differences.push(grid);
+        }
+    }
+    let outliers = differences.outliers().into_iter();
+    findings.extend(outliers.filter_map(|outlier| tell(reel, &outlier)));
+    findings.sort_by_key(|finding| finding.frame);
+    findings.extend(orphans(reel));
+    Report { frames, findings }
+}
+
+/// What is wrong with one frame by itself; and its grid, if it can be shown.
+fn look(reel: &Reel, frame: u32) -> (Vec<Finding>, Option<Grid>) {
+    let key = reel.keys.frame(frame);
+    let record = reel.records.get(&frame);
+    let same = record.is_some_and(|record| record.fingerprint == key.fingerprint);
+    let status = reel.status(frame, &key);
+    let mut findings = Vec::new();
+    let mut grid = None;
+    if status == Status::Missing {
+        let file = reel.files(frame).into_iter().next().unwrap_or_default();
+        findings.push(finding(frame, file, Kind::Missing, "missing".to_owned()));
+        return (findings, grid);
+    }
+    let shown = shown_extension(reel.shot());
+    for file in reel.files(frame) {
+        let extension = if file.ends_with(".exr") { "exr" } else { "png" };
+        match inspect(reel, record.filter(|_| same), &file, extension) {
+            Ok(inspected) => {
+                let what = inspected.wrong.into_iter();
+                findings.extend(what.map(|(kind, why)| finding(frame, file.clone(), kind, why)));
+                if extension == shown {
+                    grid = inspected.grid;
+                }
+            }
+            // Of something else, so of another size too: that goes without saying.
+            Err(Fault::Size { .. }) if !same => {}
+            Err(fault) => {
+                let why = cut_short(record.filter(|_| same), &reel.folder, &file, &fault);
+                findings.push(finding(frame, file, kind_of(&fault), why));
+            }
+        }
+    }
+    // Where the files themselves tell what is wrong, that is said and not that lengths differ.
+    if let Status::Stale { because } = status
+        && !(same && !findings.is_empty())
+    {
+        let file = reel.files(frame).into_iter().next().unwrap_or_default();
+        let why = format!("stale: {because}; render it again");
+        findings.insert(0, finding(frame, file, Kind::Stale, why));
+        grid = None;
+    }
+    (findings, grid)
+}
+
+/// A file that could be decoded.
+struct Inspected {
+    wrong: Vec<(Kind, String)>,
+    grid: Option<Grid>,
+}
+
+/// Reads a file; `record` is that of the frame, if it is of the frame as it should be.
+fn inspect(
+    reel: &Reel,
+    record: Option<&Record>,
+    file: &str,
+    extension: &str,
+) -> Result<Inspected, Fault> {
+    let size = reel.keys.picture().size;
+    let bytes = read_bytes(&reel.folder.join(file), size)?;
+    let decoded = decode_as(reel.shot(), extension, &bytes, size)?;
+    let mut wrong = Vec::new();
+    let written = record.and_then(|record| record.files.iter().find(|f| f.name == file));
+    if written.is_some_and(|written| written.blake3 != blake3::hash(&bytes).to_hex().as_str()) {
+        let why = "changed: its bytes are not those that were written; render it again";
+        wrong.push((Kind::Changed, why.to_owned()));
+    }
+    if !decoded.not_finite.is_empty() {
+        let channels: Vec<String> = decoded
+            .not_finite
+            .iter()
+            .map(|(name, count)| format!("{count} in {name}"))
+            .collect();
+        let why = format!(
+            "not finite: NaN or infinite values, {}",
+            channels.join(", ")
+        );
+        wrong.push((Kind::NotFinite, why));
+    }
+    Ok(Inspected {
+        wrong,
+        grid: Some(Grid::new(&decoded.rgb8, size[0] as usize)),
+    })
+}
+
+/// The fault in words; of a file that has fewer bytes than were written, how many are gone.
+fn cut_short(record: Option<&Record>, folder: &Path, file: &str, fault: &Fault) -> String {
+    let written = record.and_then(|record| record.files.iter().find(|f| f.name == file));
+    let length = std::fs::metadata(folder.join(file)).map_or(0, |m| m.len());
+    match written {
+        Some(written) if length > 0 && length < written.bytes => {
+            format!("truncated: it has {length} of {} bytes", written.bytes)
+        }
+        _ => fault.to_string(),
+    }
+}
+
+fn kind_of(fault: &Fault) -> Kind {
+    match fault {
+        Fault::Missing => Kind::Missing,
+        Fault::Size { .. } => Kind::WrongSize,
+        Fault::Empty | Fault::Truncated | Fault::Damaged(_) | Fault::Unreadable(_) => {
+            Kind::Undecodable
+        }
+    }
+}
+
+fn finding(frame: u32, file: String, kind: Kind, why: String) -> Finding {
+    Finding {
+        frame: Some(frame),
+        file,
+        kind,
+        why,
+    }
+}
+
+/// The finding of an outlier, unless the shot itself explains it.
+fn tell(reel: &Reel, outlier: &Outlier) -> Option<Finding> {
+    let frame = outlier.index as u32 + 1;
+    // An end is judged by the frames beside it.
+    let middle = frame.clamp(2, reel.shot().shot.frames.saturating_sub(1).max(2));
+    if explained([middle - 1, middle, middle + 1].map(|frame| reel.keys.frame(frame))) {
+        return None;
+    }
+    let file = reel.names.frame(frame, shown_extension(reel.shot()));
+    let why = format!(
+        "outlier: it is {:.3} from what its neighbours let expect, others around it {:.3}; look at it",
+        outlier.difference, outlier.usual
+    );
+    Some(finding(frame, file, Kind::Outlier, why))
+}
+
+/// Whether a value of the shot leaves the way between its neighbours.
+fn explained(keys: [FrameKey; 3]) -> bool {
+    let [before, here, after] = keys.map(|key| key.parts);
+    let one_way = |part: &str, value: &String| match (before.get(part), after.get(part)) {
+        (Some(before), Some(after)) => smooth(before, value, after),
+        _ => false,
+    };
+    let gone = |part: &String| !here.contains_key(part);
+    let smooth = here.iter().all(|(part, value)| one_way(part, value));
+    !smooth || before.keys().chain(after.keys()).any(gone)
+}
+
+/// Whether a value lies between two others as if on its way; words must be those of a neighbour.
+fn smooth(before: &str, here: &str, after: &str) -> bool {
+    match [before, here, after].map(numbers) {
+        [Some(before), Some(here), Some(after)]
+            if before.len() == here.len() && here.len() == after.len() =>
+        {
+            before.iter().zip(&here).zip(&after).all(|((p, v), n)| {
+                let step = (v - p).abs().max((n - v).abs());
+                (v - (p + n) / 2.0).abs() <= KINK * step
+            })
+        }
+        // A hash tells nothing but that something changed, which it does where things move.
+        _ => here == before || here == after || before != after,
+    }
+}
+
+/// The numbers of a value as it stands in JSON; none if it is a word.
+fn numbers(text: &str) -> Option<Vec<f64>> {
+    fn collect(value: &Value, numbers: &mut Vec<f64>) -> Option<()> {
+        match value {
+            Value::Number(number) => numbers.push(number.as_f64()?),
+            Value::Array(values) => values.iter().try_for_each(|v| collect(v, numbers))?,
+            Value::Object(values) => values.values().try_for_each(|v| collect(v, numbers))?,
+            _ => return None,
+        }
+        Some(())
+    }
+    let mut list = Vec::new();
+    collect(&serde_json::from_str(text).ok()?, &mut list)?;
+    Some(list)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn keys(values: [&str; 3]) -> [FrameKey; 3] {
+        values.map(|value| FrameKey {
+            fingerprint: String::new(),
+            parts: [("camera.pan".to_owned(), value.to_owned())]
+                .into_iter()
+                .collect(),
+            trace: String::new(),
+        })
+    }
+
+    #[test]
+    fn jumps_and_kinks_of_a_value_explain_a_frame_and_ramps_do_not() {
+        for values in [
+            ["0", "1", "0"],
+            ["0", "0", "1"],
+            ["1", "5", "5"],
+            ["[0, 0, 0]", "[0, 0, 0]", "[0.5, 0, 0]"],
+            ["\"off\"", "\"full\"", "\"off\""],
+            ["{\"gamma\": 2}", "{\"gamma\": 9}", "{\"gamma\": 2}"],
+        ] {
+            assert!(explained(keys(values)), "{values:?}");
+        }
+        for values in [
+            ["0", "1", "2"],
+            ["0.1", "0.2", "0.30000000000000004"],
+            ["7", "7", "7"],
+            ["0", "1", "2.2"],
+            ["[0, 1, 0]", "[0.5, 1, 0]", "[1, 1, 0]"],
+            ["\"off\"", "\"off\"", "\"off\""],
+            ["9f3c", "11aa", "0b2e"],
+        ] {
+            assert!(!explained(keys(values)), "{values:?}");
+        }
+    }
+
+    #[test]
+    fn a_part_that_one_frame_alone_has_explains_it() {
+        let [before, mut here, after] = keys(["1", "1", "1"]);
+        here.parts
+            .insert("model[1].file".to_owned(), "x".to_owned());
+        assert!(explained([before, here, after]));
+    }
+}

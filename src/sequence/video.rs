@@ -1,0 +1,200 @@
+//! A video by ffmpeg, which is handed pixels through a pipe and never the names of files: of those
+//! it would pass over what is missing and stop without a word at what is empty.
+//!
+//! Rec. 709 as players expect it: limited range, 4:2:0, tagged; the transfer is sRGB's, that of the
+//! pixels. H.264 at a constant rate factor of 18, AV1 at 20 with 10 bits.
+
+use super::draft::Draft;
+use super::still::Still;
+use super::target::Target;
+use crate::shot::Video as Kind;
+use std::ffi::OsString;
+use std::io::{self, Read, Write};
+use std::path::PathBuf;
+use std::process::{Child, Command, Stdio};
+use std::thread::JoinHandle;
+
+/// Least pixels a side of the AV1 encoder (SVT-AV1 1.4).
+const LEAST_AV1: u32 = 64;
+
+/// Lines of what ffmpeg said last that are quoted.
+const QUOTED: usize = 4;
+
+/// A video in the making.
+pub(super) struct Video {
+    draft: Draft,
+    ffmpeg: Ffmpeg,
+    frames: u32,
+    size: [u32; 2],
+}
+
+/// A running ffmpeg; dropped, it is ended.
+struct Ffmpeg {
+    child: Child,
+    said: Option<JoinHandle<String>>,
+}
+
+/// A size with even sides, by one column or row more.
+pub(super) fn even(size: [u32; 2]) -> [u32; 2] {
+    size.map(|side| side.next_multiple_of(2))
+}
+
+impl Video {
+    /// Begins one of so many frames of a size, `rate` of them a second as a fraction.
+    pub(super) fn new(
+        draft: Draft,
+        kind: Kind,
+        size: [u32; 2],
+        frames: u32,
+        rate: (i32, u32),
+    ) -> Result<Self, String> {
+        let [width, height] = size;
+        if kind == Kind::Av1 && width.min(height) < LEAST_AV1 {
+            return Err(format!(
+                "an AV1 video has at least {LEAST_AV1} pixels a side, not {width} x {height}; \
+                 ask for video = \"mp4\""
+            ));
+        }
+        let spawned = Command::new("ffmpeg")
+            .args(arguments(kind, even(size), rate))
+            .arg(draft.now())
+            .stdin(Stdio::piped())
+            .stdout(Stdio::null())
+            .stderr(Stdio::piped())
+            .spawn();
+        let mut child = spawned.map_err(|error| match error.kind() {
+            io::ErrorKind::NotFound => "videos are made by ffmpeg, which is not to be found: \
+                install it (apt install ffmpeg), or leave out sequence.video"
+                .to_owned(),
+            _ => format!("ffmpeg does not start: {error}"),
+        })?;
+        let said = child.stderr.take().map(|mut pipe| {
+            std::thread::spawn(move || {
+                let mut bytes = Vec::new();
+                let _unheard = pipe.read_to_end(&mut bytes);
+                String::from_utf8_lossy(&bytes).into_owned()
+            })
+        });
+        Ok(Self {
+            draft,
+            ffmpeg: Ffmpeg { child, said },
+            frames,
+            size,
+        })
+    }
+}
+
+/// All that ffmpeg is told but the file's name.
+fn arguments(kind: Kind, [width, height]: [u32; 2], (n, d): (i32, u32)) -> Vec<OsString> {
+    let (format, codec) = match kind {
+        Kind::Mp4 => ("yuv420p", "-c:v libx264 -crf 18 -preset slow"),
+        Kind::Av1 => ("yuv420p10le", "-c:v libsvtav1 -crf 20 -preset 6"),
+    };
+    let line = format!(
+        "-v error -nostdin -y -f rawvideo -pix_fmt rgb24 -s {width}x{height} -r {n}/{d} -i - \
+         -vf scale=in_range=full:out_range=tv:out_color_matrix=bt709,format={format} {codec} \
+         -color_range tv -colorspace bt709 -color_primaries bt709 -color_trc iec61966-2-1 \
+         -movflags +faststart -f mp4"
+    );
+    line.split_whitespace().map(OsString::from).collect()
+}
+
+impl Target for Video {
+    fn add(&mut self, _: u32, still: &Still) -> Result<(), String> {
+        let padded = pad(still, even(self.size));
+        let pixels = padded.as_ref().unwrap_or(&still.rgb8);
+        let pipe = self.ffmpeg.child.stdin.as_mut();
+        let written = pipe.map_or(Ok(()), |pipe| pipe.write_all(pixels));
+        // It has ended: what it said tells more than the broken pipe.
+        written.map_err(|error| self.ffmpeg.end().err().unwrap_or_else(|| error.to_string()))
+    }
+
+    fn finish(mut self: Box<Self>) -> Result<PathBuf, String> {
+        self.ffmpeg.end()?;
+        match count(&self.draft) {
+            Some(found) if found != self.frames => Err(format!(
+                "ffmpeg made a video of {found} frames from {}; try another build of it",
+                self.frames
+            )),
+            _ => self.draft.keep().map_err(|error| error.to_string()),
+        }
+    }
+}
+
+impl Ffmpeg {
+    /// Tells it that there is no more, and waits for its end.
+    fn end(&mut self) -> Result<(), String> {
+        drop(self.child.stdin.take());
+        let status = self.child.wait().map_err(|error| error.to_string())?;
+        let said = self.said.take().and_then(|said| said.join().ok());
+        if status.success() {
+            return Ok(());
+        }
+        let said = said.unwrap_or_default();
+        let lines: Vec<&str> = said
+            .lines()
+            .filter(|line| !line.trim().is_empty())
+            .collect();
+        let last = lines[lines.len().saturating_sub(QUOTED)..].join("; ");
+        let words = if last.is_empty() { "nothing" } else { &last };
+        Err(format!("ffmpeg failed ({status}) and said: {words}"))
+    }
+}
+
+impl Drop for Ffmpeg {
+    fn drop(&mut self) {
+        // Of one that has ended there is nothing to end.
+        let _ended = self.child.kill();
+        let _status = self.child.wait();
+    }
+}
+
+/// The pixels with their last column and row once more, where sides are odd.
+fn pad(still: &Still, [width, height]: [u32; 2]) -> Option<Vec<u8>> {
+    if [width, height] == [still.width, still.height] {
+        return None;
+    }
+    let stride = still.width as usize * 3;
+    let mut padded = Vec::with_capacity(width as usize * height as usize * 3);
+    for y in 0..height {
+        let row = y.min(still.height - 1) as usize;
+        let bytes = &still.rgb8[row * stride..][..stride];
+        padded.extend_from_slice(bytes);
+        if width > still.width {
+            padded.extend_from_slice(&bytes[stride - 3..]);
+        }
+    }
+    Some(padded)
+}
+
+/// How many frames a video has, if there is an ffprobe to tell.
+fn count(draft: &Draft) -> Option<u32> {
+    let words = "-v error -select_streams v:0 -count_frames -show_entries stream=nb_read_frames \
+                 -of csv=p=0";
+    let told = Command::new("ffprobe")
+        .args(words.split_whitespace())
+        .arg(draft.now())
+        .stdin(Stdio::null())
+        .stderr(Stdio::null())
+        .output()
+        .ok()?;
+    let text = String::from_utf8(told.stdout).ok()?;
+    text.trim().trim_end_matches(',').parse().ok()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn odd_sides_repeat_their_last_line() {
+        let still = Still {
+            width: 1,
+            height: 1,
+            rgb8: vec![1, 2, 3],
+        };
+        assert_eq!(even([1, 1]), [2, 2]);
+        assert_eq!(pad(&still, [2, 2]), Some([1, 2, 3].repeat(4)));
+        assert_eq!(pad(&still, [1, 1]), None);
+    }
+}
