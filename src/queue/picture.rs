@@ -4,6 +4,7 @@ use crate::film::{self, EncodeError, Film, Metadata, develop, exr};
 use crate::render::development;
 use crate::scene::Scene;
 use crate::shot::{Depth, Format, Sensor, Shot};
+use crate::trace::Stage;
 
 /// The files of a frame: extension and content, and how many values had to be clamped.
 pub struct Pictures {
@@ -11,9 +12,12 @@ pub struct Pictures {
     pub files: Vec<(&'static str, Vec<u8>)>,
     /// Values beyond what a file can hold.
     pub saturated: u64,
+    /// What could not be drawn, and why.
+    pub warnings: Vec<String>,
 }
 
-/// Develops a film and encodes it in the shot's formats.
+/// Develops a film and encodes it in the shot's formats. What insets show is looked up in the
+/// `scene` and on the `stage` that the film was rendered with.
 ///
 /// # Errors
 /// When an encoder refuses.
@@ -21,6 +25,7 @@ pub fn pictures(
     shot: &Shot,
     frame: u32,
     scene: &Scene,
+    _stage: &Stage,
     film: &Film,
     exposure_stops: f64,
     samples: u32,
@@ -35,6 +40,7 @@ pub fn pictures(
     let (width, height) = (film.width, film.height);
     let mut files = Vec::new();
     let mut saturated = developed.saturated;
+    let warnings = Vec::new();
     for format in &shot.output.formats {
         files.push(match format {
             Format::Png => {
@@ -52,7 +58,11 @@ pub fn pictures(
             }
         });
     }
-    Ok(Pictures { files, saturated })
+    Ok(Pictures {
+        files,
+        saturated,
+        warnings,
+    })
 }
 
 fn exr_depth(depth: Depth) -> exr::Depth {

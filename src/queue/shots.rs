@@ -211,12 +211,15 @@ fn render_frame(
     let film = render(shot, frame, &scene, &stage, &options, &advance)
         .map_err(|error| mistakes(crate::render::motion_mistake(shot, &error)))?;
     let stops = exposing.stops(frame, shot.shot.frames);
-    let pictures = pictures(shot, frame, &scene, &film, stops, options.samples)?;
+    let pictures = pictures(shot, frame, &scene, &stage, &film, stops, options.samples)?;
     if pictures.saturated > 0 {
         progress.note(&format!(
             "warning: frame {frame}: {} values beyond what a file can hold were clamped",
             pictures.saturated
         ));
+    }
+    for warning in &pictures.warnings {
+        progress.note(&format!("warning: frame {frame}: {warning}"));
     }
     let digits = shot.shot.frames.to_string().len().max(4);
     let mut first = None;

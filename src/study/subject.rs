@@ -124,6 +124,7 @@ impl Variant {
             &self.shot,
             subject.frame,
             scene,
+            stage,
             &film,
             subject.stops,
             self.options.samples,
