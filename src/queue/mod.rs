@@ -5,6 +5,7 @@
 //! error ([`Progress`]). Standard output is never written to.
 
 mod frames;
+mod inset;
 mod manifest;
 mod names;
 mod picture;

@@ -81,6 +81,43 @@ pub struct Inset {
     pub size: f64,
 }
 
+/// Width of an inset to its height.
+const ASPECT: f64 = 4.0 / 3.0;
+/// Between an inset and the image's edges, of the image's height.
+const MARGIN: f64 = 0.02;
+
+impl Inset {
+    /// The pixel that it tells of, in an image of this size.
+    pub fn pixel_of(&self, size: [u32; 2]) -> [u32; 2] {
+        match self.pixel {
+            InsetPixel::At(pixel) => pixel,
+            InsetPixel::Named(PixelName::Center) => size.map(|side| side / 2),
+        }
+    }
+
+    /// Its upper left pixel and its size in an image of this size: four to three, and smaller than
+    /// `size` says where the image is too narrow or too low for it.
+    pub fn place_in(&self, [width, height]: [u32; 2]) -> ([u32; 2], [u32; 2]) {
+        let margin = (MARGIN * f64::from(height)).round();
+        let room = [width, height].map(|side| (f64::from(side) - 2.0 * margin).max(0.0));
+        let own_height = (self.size * f64::from(height))
+            .min(room[1])
+            .min(room[0] / ASPECT);
+        let own_height = own_height.floor();
+        let own = [(own_height * ASPECT).floor(), own_height].map(|side| side as u32);
+        let margin = margin as u32;
+        let right = width.saturating_sub(margin + own[0]);
+        let low = height.saturating_sub(margin + own[1]);
+        let corner = match self.place {
+            Corner::UpperLeft => [margin, margin],
+            Corner::UpperRight => [right, margin],
+            Corner::LowerLeft => [margin, low],
+            Corner::LowerRight => [right, low],
+        };
+        (corner, own)
+    }
+}
+
 fn usual_size() -> f64 {
     0.4
 }
