@@ -2,9 +2,9 @@
 
 use super::{Failed, ProbeArguments, failed, mistaken, misused, print, print_json};
 use crate::film::plot::{Page, lay_out, svg};
-use crate::probe::{Probe, ProbeNode, plot, probe, wide_band};
+use crate::probe::{Probe, ProbeNode, effects_at, plot, probe, wide_band};
 use crate::queue::{Prepared, write_atomically};
-use crate::render::{View, motion_mistake, rows, spliced};
+use crate::render::{View, motion_mistake};
 use crate::scene::Scene;
 use crate::shot::SensorColor;
 use crate::trace::Stage;
@@ -46,12 +46,7 @@ pub(super) fn run(arguments: &ProbeArguments) -> Result<(), Failed> {
     let (exposing, _) = prepared.exposure().map_err(|m| mistaken(&m))?;
     let scene = Scene::resolve(shot, &prepared.library, frame, None).map_err(|m| mistaken(&m))?;
     let stage = Stage::with_precision(&scene.geometry, None, shot.accuracy.tracing);
-    let splice = shot
-        .splice
-        .iter()
-        .rev()
-        .find(|s| rows(s, height).contains(&pixel[1]));
-    let effects = splice.map_or(shot.effects, |splice| spliced(&shot.effects, splice));
+    let effects = effects_at(shot, pixel[1]);
     let view = View::new(shot, frame, &effects, &scene, &stage)
         .map_err(|error| mistaken(&motion_mistake(shot, &error)))?;
     let stops = exposing.stops(frame, shot.shot.frames);

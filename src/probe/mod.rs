@@ -1,7 +1,9 @@
 //! What the centre of one pixel sees: the event, the Doppler factor, the curve, the colour.
 
+mod inset;
 mod plot;
 
+pub use inset::inset;
 pub use plot::{WideBand, plot, wide_band};
 
 use crate::film::Channels;
@@ -9,7 +11,7 @@ use crate::relativity::Event;
 use crate::render::{self, LabPath, View, development};
 use crate::scene::Scene;
 use crate::shade::{Radiance, ShadeScratch};
-use crate::shot::{Accuracy, Shot, Spectra};
+use crate::shot::{Accuracy, Effects, Shot, Spectra};
 use crate::trace::{Branch, Node, Scratch, Seen, ShadeTrees, Surface, Term};
 use glam::DVec3;
 use serde::Serialize;
@@ -89,6 +91,16 @@ pub struct ProbeEvent {
     pub t: f64,
     /// Position.
     pub x: [f64; 3],
+}
+
+/// The effects under which a pixel of this row is seen: those of the splice that it lies in.
+pub fn effects_at(shot: &Shot, row: u32) -> Effects {
+    let [_, height] = shot.image.size;
+    let mut splices = shot.splice.iter().rev();
+    let splice = splices.find(|splice| render::rows(splice, height).contains(&row));
+    splice.map_or(shot.effects, |splice| {
+        render::spliced(&shot.effects, splice)
+    })
 }
 
 /// Probes the centre of `pixel`, which must lie in the shot's image. `exposure` is in stops.

@@ -18,7 +18,7 @@ const USUAL_BAND: [f64; 2] = [50.0, 50_000.0];
 /// its inverse still keep what is visible within.
 const WIDEST_BAND: [f64; 2] = [1e-20, 1e25];
 /// Spacing of wavelengths in ln λ: 0.6 nm at 600 nm.
-const SPACING: f64 = 1e-3;
+pub(super) const SPACING: f64 = 1e-3;
 /// A black body has less than 1 % of its peak outside of these multiples of the peak's wavelength.
 const THERMAL: [f64; 2] = [0.328, 6.624];
 /// By how much a round wavelength may be missed, relative.
@@ -29,11 +29,11 @@ const DEPTH: f64 = 1e-3;
 /// … but no less, and no more, than these shares of all light's peak.
 const DEPTHS: [f64; 2] = [1e-6, 1e-16];
 
-const UNIT: &str = "W·m⁻²·sr⁻¹·nm⁻¹";
+pub(super) const UNIT: &str = "W·m⁻²·sr⁻¹·nm⁻¹";
 // Three colours that no kind of colour vision confuses (Okabe & Ito 2008), the sum in grey.
 const SUM: Color = [110, 110, 110];
-const SURFACE: Color = [0, 92, 160];
-const THERMAL_LIGHT: Color = [200, 70, 0];
+pub(super) const SURFACE: Color = [0, 92, 160];
+pub(super) const THERMAL_LIGHT: Color = [200, 70, 0];
 
 /// The light of a pixel over a band wider than the sensor's window.
 #[derive(Debug, Clone, PartialEq)]
@@ -118,10 +118,10 @@ pub fn plot(title: &str, window_nm: [f64; 2], probe: &Probe, wide: &WideBand) ->
     let [x, y] = probe.pixel;
     let doppler = probe.hit.as_ref().map_or_else(
         || "sees the background".to_owned(),
-        |hit| format!("D = {}", digits(hit.doppler)),
+        |hit| format!("D = {}", digits(hit.doppler, 6)),
     );
     let title = format!("{title}, frame {}, pixel {x} {y}, {doppler}", probe.frame);
-    let window = [&probe.surface, &probe.thermal, &probe.radiance];
+    let window = [&probe.surface, &probe.thermal, &probe.radiance].map(|curve| finer(curve));
     let sum = wide.light.total();
     let wide_curves = [&wide.light.surface, &wide.light.thermal, &sum];
     let label = "spectral radiance";
@@ -130,7 +130,7 @@ pub fn plot(title: &str, window_nm: [f64; 2], probe: &Probe, wide: &WideBand) ->
             "In the sensor's window",
             Axis::new("wavelength", "nm", Scale::Linear, window_nm),
             Axis::from_zero(label, UNIT, peak(&probe.radiance)),
-            series(&finer(&probe.wavelengths), window.map(|curve| finer(curve))),
+            series(&finer(&probe.wavelengths), window),
         ),
         (
             "Wide band",
@@ -153,33 +153,52 @@ pub fn plot(title: &str, window_nm: [f64; 2], probe: &Probe, wide: &WideBand) ->
     }
 }
 
-/// Seven digits, in the shorter way to write them.
-fn digits(value: f64) -> String {
+/// So many decimals, in the shorter way to write a number.
+pub(super) fn digits(value: f64, decimals: usize) -> String {
     if (1e-3..1e5).contains(&value) {
-        format!("{value:.6}")
+        format!("{value:.decimals$}")
     } else {
-        format!("{value:.6e}")
+        format!("{value:.decimals$e}")
     }
 }
 
 /// The sum is wide and below, so that what makes it is seen on it.
 fn series(wavelengths: &[f64], [surface, thermal, sum]: [Vec<f64>; 3]) -> Vec<Series> {
-    let series = |name: &str, color, stroke, values: Vec<f64>| Series {
+    vec![
+        curve("sum", SUM, Stroke::Solid(5.0), wavelengths, sum),
+        curve(
+            "surface light",
+            SURFACE,
+            Stroke::Solid(1.8),
+            wavelengths,
+            surface,
+        ),
+        curve(
+            "thermal light",
+            THERMAL_LIGHT,
+            Stroke::Dashed(1.8),
+            wavelengths,
+            thermal,
+        ),
+    ]
+}
+
+/// A curve over wavelength.
+pub(super) fn curve(
+    name: &str,
+    color: Color,
+    stroke: Stroke,
+    wavelengths: &[f64],
+    values: Vec<f64>,
+) -> Series {
+    let points = wavelengths.iter().zip(values).map(|(x, y)| [*x, y]);
+    Series {
         name: name.to_owned(),
         color,
         stroke,
-        points: wavelengths
-            .iter()
-            .zip(values)
-            .map(|(x, y)| [*x, y])
-            .collect(),
+        points: points.collect(),
         remarks: Vec::new(),
-    };
-    vec![
-        series("sum", SUM, Stroke::Solid(5.0), sum),
-        series("surface light", SURFACE, Stroke::Solid(1.8), surface),
-        series("thermal light", THERMAL_LIGHT, Stroke::Dashed(1.8), thermal),
-    ]
+    }
 }
 
 /// Values between those of the sensor's wavelengths, by the cubic that its sums are exact for.
@@ -206,7 +225,7 @@ fn dark(series: &[Series]) -> bool {
     series.iter().flat_map(|s| &s.points).all(|p| p[1] <= 0.0)
 }
 
-fn peak(curve: &[f64]) -> f64 {
+pub(super) fn peak(curve: &[f64]) -> f64 {
     curve.iter().copied().fold(0.0, f64::max)
 }
 
@@ -225,7 +244,7 @@ fn depth(curves: [&Vec<f64>; 3]) -> [f64; 2] {
 }
 
 /// The colours of the visible band, faint enough to draw on.
-fn visible() -> Vec<Tint> {
+pub(super) fn visible() -> Vec<Tint> {
     const STEP_NM: f64 = 2.5;
     let count = ((RANGE_NM[1] - RANGE_NM[0]) / STEP_NM) as usize;
     (0..count)

@@ -15,6 +15,7 @@ mod claim;
 mod deed;
 mod event;
 mod frames;
+mod inset;
 mod job;
 mod ledger;
 mod machine;

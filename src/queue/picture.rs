@@ -1,5 +1,6 @@
 //! A film to the files of one frame, as bytes.
 
+use super::inset::Seen;
 use crate::film::{self, EncodeError, Film, Metadata, develop, exr};
 use crate::render::development;
 use crate::scene::Scene;
@@ -36,7 +37,7 @@ pub fn pictures(
     shot: &Shot,
     frame: u32,
     scene: &Scene,
-    _stage: &Stage,
+    stage: &Stage,
     film: &Film,
     taken: Taken<'_>,
 ) -> Result<Pictures, EncodeError> {
@@ -50,11 +51,19 @@ pub fn pictures(
     let (width, height) = (film.width, film.height);
     let mut files = Vec::new();
     let mut saturated = developed.saturated;
-    let warnings = Vec::new();
+    let mut warnings = Vec::new();
     for format in &shot.output.formats {
         files.push(match format {
             Format::Png => {
-                let rgb = film::png::to_rgb8(&developed, development.encode);
+                let mut rgb = film::png::to_rgb8(&developed, development.encode);
+                let seen = Seen {
+                    shot,
+                    frame,
+                    scene,
+                    stage,
+                    exposure: taken.exposure_stops,
+                };
+                warnings.extend(seen.draw_insets(&mut rgb, [width, height]));
                 ("png", film::png::encode(width, height, &rgb, &metadata)?)
             }
             Format::Exr => {

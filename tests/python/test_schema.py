@@ -18,7 +18,8 @@ BROKEN = sorted(ROOT.glob("tests/bad-shots/*.toml"))
 BEYOND = set("""
     absurd-array beta-one beta-ramp camera-looks-at-itself camera-on-itself dangling-material
     dangling-spectrum dangling-worldline emissivity-above-one field-of-view field-of-view-key
-    infinity inner-exceeds-outer key-after-the-end keys-descend lab-redefined
+    infinity inner-exceeds-outer inset-above-inset inset-outside inset-twice inset-without-png
+    key-after-the-end keys-descend lab-redefined
     light-without-amount lines-of-radio lines-too-sparse look-at-and-yaw missing-csv
     missing-file missing-sky model-extension model-is-a-folder nan no-kind overflowing-number
     panorama-too-high point-at-zero point-without-position points-descend reflectance-above-one

@@ -54,6 +54,13 @@ impl Axis {
         Self::new(label, unit, Scale::Linear, [0.0, top])
     }
 
+    /// A linear axis from 0 to the next 1, 2 or 5 times a power of ten not below `largest`, which is
+    /// finite and above 0: of values that grow it changes seldom.
+    pub fn in_steps(label: &str, unit: &str, largest: f64) -> Self {
+        let top = round_up(largest).min(f64::MAX);
+        Self::new(label, unit, Scale::Linear, [0.0, top])
+    }
+
     /// A logarithmic axis over whole decades, around values that are finite and above 0.
     pub fn decades(label: &str, unit: &str, [least, largest]: [f64; 2]) -> Self {
         let high = (largest.log10() - SLACK).ceil() as i32;
@@ -108,14 +115,19 @@ impl Axis {
     /// What stands beside the axis: its label, and the unit with the power of ten that its ticks'
     /// labels lack.
     pub(super) fn title(&self) -> String {
+        match self.measure().as_str() {
+            "" => self.label.clone(),
+            unit => format!("{} ({unit})", self.label),
+        }
+    }
+
+    /// The unit with the power of ten that the ticks' labels lack.
+    pub(super) fn measure(&self) -> String {
         let factor = match (self.scale, self.factor()) {
             (Scale::Log, _) | (_, 0) => String::new(),
             (_, exponent) => format!("10{} ", superscript(exponent)),
         };
-        match format!("{factor}{}", self.unit).trim() {
-            "" => self.label.clone(),
-            unit => format!("{} ({unit})", self.label),
-        }
+        format!("{factor}{}", self.unit).trim().to_owned()
     }
 
     /// Ticks, about `most` of them with labels.
@@ -220,7 +232,7 @@ fn power(exponent: i32) -> f64 {
 }
 
 /// The least of 1, 2 and 5 times a power of ten that is not below a value above 0.
-fn round_up(value: f64) -> f64 {
+pub fn round_up(value: f64) -> f64 {
     let power = power(exponent(value));
     let digit = [1.0, 2.0, 5.0, 10.0]
         .into_iter()
@@ -314,6 +326,7 @@ mod tests {
         ] {
             let mut axes = vec![Axis::from_zero("", "", value)];
             if value > 0.0 {
+                axes.push(Axis::in_steps("", "", value));
                 axes.push(Axis::decades("", "", [value * 1e-6, value]));
                 axes.push(Axis::around("", "", [value * 0.5, value]));
             }

@@ -9,6 +9,8 @@ pub struct Drawing {
     pub size: [f64; 2],
     /// Colour of the page.
     pub paper: Color,
+    /// How far the page hides what it is laid on, up to 1.
+    pub opacity: f64,
     /// What it shows, in a line.
     pub title: String,
     /// Marks, the first lowermost.

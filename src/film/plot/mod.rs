@@ -11,13 +11,16 @@
 mod axis;
 mod drawing;
 mod heading;
+mod inset;
 mod layout;
 mod line;
 mod remarks;
+mod sheet;
 mod svg;
 
-pub use axis::{Axis, Scale, superscript};
+pub use axis::{Axis, Scale, round_up, superscript};
 pub use drawing::{Anchor, Drawing, Group, Mark, Shape, Text};
+pub use inset::{LEAST_INSET, lay_out_inset};
 pub use layout::{Page, lay_out};
 pub use svg::svg;
 

@@ -4,7 +4,8 @@
 
 use super::Remark;
 use super::drawing::{Anchor, Mark, Shape, Text};
-use super::layout::{CHARACTER, Rect, label};
+use super::layout::CHARACTER;
+use super::sheet::{Rect, label};
 
 /// Size of the font of labels, in sizes of that of the axes.
 const SIZE: f64 = 0.86;

@@ -6,11 +6,16 @@ use super::drawing::{Anchor, Drawing, Mark, Shape, Text};
 /// Writes a drawing as a standalone SVG file. Equal drawings give equal bytes.
 pub fn svg(drawing: &Drawing) -> String {
     let [width, height] = drawing.size.map(number);
+    let opacity = if drawing.opacity < 1.0 {
+        format!(" fill-opacity=\"{}\"", number(drawing.opacity))
+    } else {
+        String::new()
+    };
     let mut text = format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" \
          viewBox=\"0 0 {width} {height}\" font-family=\"Helvetica, Arial, 'Liberation Sans', \
          'DejaVu Sans', sans-serif\">\n<title>{}</title>\n\
-         <rect width=\"{width}\" height=\"{height}\" fill=\"{}\"/>\n",
+         <rect width=\"{width}\" height=\"{height}\" fill=\"{}\"{opacity}/>\n",
         escaped(&drawing.title),
         hex(drawing.paper),
     );

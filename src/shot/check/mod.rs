@@ -6,6 +6,7 @@
 
 mod bodies;
 mod camera;
+mod insets;
 mod lights;
 mod materials;
 mod sky;
@@ -52,6 +53,7 @@ pub(super) fn check(shot: &Shot, walk: Walk<'_>) -> Vec<Mistake> {
     checks.lights();
     checks.sky();
     checks.camera();
+    checks.insets();
     checks.mistakes
 }
 

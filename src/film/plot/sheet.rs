@@ -1,0 +1,286 @@
+//! A panel on its part of a page: tints, grid, curves and what stands beside the axes.
+
+use super::axis::Tick;
+use super::drawing::{Anchor, Mark, Shape, Text};
+use super::layout::{CHARACTER, INK};
+use super::line::{simplified, visible_runs};
+use super::remarks::beside;
+use super::{Axis, Color, Panel, Remark, Series, Stroke};
+
+const GRID: Color = [222, 222, 222];
+/// How far a drawn line may be from the curve, pixels.
+const TOLERANCE: f64 = 0.04;
+/// Width of the stroke of rings, in the usual font.
+const RING: f64 = 1.8;
+/// The font that widths of strokes are given for, pixels.
+const USUAL_FONT: f64 = 16.0;
+
+/// A line through points on the page, or dots there, as a series is drawn.
+pub(super) fn strokes(class: &str, series: &Series, points: &[[f64; 2]], font: f64) -> Vec<Mark> {
+    let mark = |shape| Mark::new(class, series.color, shape);
+    let scale = font / USUAL_FONT;
+    let line = |width: f64, dash: Option<f64>| {
+        vec![mark(Shape::Line {
+            points: points.to_vec(),
+            width: width * scale,
+            dash,
+        })]
+    };
+    match series.stroke {
+        Stroke::Solid(width) => line(width, None),
+        Stroke::Dashed(width) => line(width, Some(width * 2.5 * scale)),
+        Stroke::Dots(radius) => points
+            .iter()
+            .map(|center| {
+                mark(Shape::Dot {
+                    center: *center,
+                    radius: radius * scale,
+                })
+            })
+            .collect(),
+        Stroke::Rings(radius) => points
+            .iter()
+            .map(|center| {
+                mark(Shape::Ring {
+                    center: *center,
+                    radius: radius * scale,
+                    width: RING * scale,
+                })
+            })
+            .collect(),
+    }
+}
+
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Rect {
+    pub(super) corner: [f64; 2],
+    pub(super) size: [f64; 2],
+}
+
+/// A panel on its part of the page.
+pub(super) struct Sheet<'a> {
+    pub(super) panel: &'a Panel,
+    pub(super) font: f64,
+    /// The rectangle between the axes.
+    pub(super) area: Rect,
+    pub(super) x_ticks: Vec<Tick>,
+    pub(super) y_ticks: Vec<Tick>,
+}
+
+impl<'a> Sheet<'a> {
+    /// With room for labels on a part of a page.
+    pub(super) fn new(panel: &'a Panel, place: Rect, font: f64) -> Self {
+        let [above, right, below] = [1.9, 1.6, 3.7].map(|share| share * font);
+        let height = (place.size[1] - above - below).max(1.0);
+        let y_ticks = panel.y.ticks((height / (2.6 * font)) as usize);
+        let left = (2.9 + longest(&y_ticks) * CHARACTER) * font;
+        let width = (place.size[0] - left - right).max(1.0);
+        Self {
+            panel,
+            font,
+            area: Rect {
+                corner: [place.corner[0] + left, place.corner[1] + above],
+                size: [width, height],
+            },
+            x_ticks: panel.x.ticks((width / (4.5 * font)) as usize),
+            y_ticks,
+        }
+    }
+
+    fn x(&self, place: f64) -> f64 {
+        self.area.corner[0] + place * self.area.size[0]
+    }
+
+    fn y(&self, place: f64) -> f64 {
+        self.area.corner[1] + (1.0 - place) * self.area.size[1]
+    }
+
+    /// The curves between their axes, and all that is written beside them.
+    pub(super) fn labelled(&self) -> Vec<Mark> {
+        let drawn = self.curves();
+        let beside = beside(&self.remarked(), &drawn, self.area, self.font);
+        let mut marks = self.between_axes(drawn);
+        marks.extend(self.values());
+        marks.extend(self.titles());
+        marks.extend(beside);
+        marks
+    }
+
+    /// The curves between their axes.
+    pub(super) fn bare(&self) -> Vec<Mark> {
+        self.between_axes(self.curves())
+    }
+
+    fn curves(&self) -> Vec<Mark> {
+        let series = self.panel.series.iter();
+        series.flat_map(|series| self.curve(series)).collect()
+    }
+
+    fn between_axes(&self, drawn: Vec<Mark>) -> Vec<Mark> {
+        let mut marks = self.tints();
+        marks.extend(self.grid());
+        marks.extend(drawn);
+        let corners = [[0.0, 1.0], [0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
+        marks.push(self.line("frame", INK, &corners));
+        marks
+    }
+
+    /// Each tint reaches to the end of the last, and the next one covers the rest of it: no seams.
+    fn tints(&self) -> Vec<Mark> {
+        let Axis { range, .. } = self.panel.x;
+        let tints = self.panel.tints.iter();
+        let inside = tints.filter(|tint| tint.range[1] > range[0] && tint.range[0] < range[1]);
+        let end = self.panel.tints.last().map_or(range[0], |t| t.range[1]);
+        let end = self.x(self.panel.x.place(end));
+        inside
+            .map(|tint| {
+                let start = self.x(self.panel.x.place(tint.range[0]));
+                let shape = Shape::Rect {
+                    corner: [start, self.area.corner[1]],
+                    size: [end - start, self.area.size[1]],
+                };
+                Mark::new("tint", tint.color, shape)
+            })
+            .collect()
+    }
+
+    /// Lines across at labelled ticks, and short ones at the others.
+    fn grid(&self) -> Vec<Mark> {
+        const SHORT: f64 = 0.35;
+        let style = |tick: &Tick, [across, short]: [&'static str; 2], extent: f64| match tick.label
+        {
+            Some(_) => (across, GRID, 1.0),
+            None => (short, INK, SHORT * self.font / extent),
+        };
+        let [width, height] = self.area.size;
+        let upright = self.x_ticks.iter().map(|tick| {
+            let (class, color, end) = style(tick, ["x-tick", "x-minor"], height);
+            self.line(class, color, &[[tick.place, 0.0], [tick.place, end]])
+        });
+        let level = self.y_ticks.iter().map(|tick| {
+            let (class, color, end) = style(tick, ["y-tick", "y-minor"], width);
+            self.line(class, color, &[[0.0, tick.place], [end, tick.place]])
+        });
+        upright.chain(level).collect()
+    }
+
+    /// A thin line between places on the axes.
+    fn line(&self, class: &str, color: Color, places: &[[f64; 2]]) -> Mark {
+        let points = places.iter().map(|[x, y]| [self.x(*x), self.y(*y)]);
+        let shape = Shape::Line {
+            points: points.collect(),
+            width: self.font / USUAL_FONT,
+            dash: None,
+        };
+        Mark::new(class, color, shape)
+    }
+
+    fn curve(&self, series: &Series) -> Vec<Mark> {
+        let class = format!("curve {}", series.name);
+        if series.is_dotted() {
+            let (dots, remarks): (Vec<_>, Vec<_>) = self.dots(series).unzip();
+            let mut marks = strokes(&class, series, &dots, self.font);
+            for (mark, remark) in marks.iter_mut().zip(remarks) {
+                mark.tip = remark.map(|remark| remark.tip.clone());
+            }
+            return marks;
+        }
+        let runs = visible_runs(&series.points, &self.panel.y).into_iter();
+        runs.flat_map(|run| {
+            let line: Vec<_> = run.iter().map(|p| self.on_page(p)).collect();
+            strokes(&class, series, &simplified(&line, TOLERANCE), self.font)
+        })
+        .collect()
+    }
+
+    fn on_page(&self, [x, y]: &[f64; 2]) -> [f64; 2] {
+        let Panel {
+            x: across, y: up, ..
+        } = self.panel;
+        [self.x(across.place(*x)), self.y(up.place(*y))]
+    }
+
+    /// The dots of a series that its axis shows, each with what is said of it.
+    fn dots<'b>(&self, series: &'b Series) -> impl Iterator<Item = ([f64; 2], Option<&'b Remark>)> {
+        let remarks = series.remarks.iter().map(Some);
+        let points = series
+            .points
+            .iter()
+            .zip(remarks.chain(std::iter::repeat(None)));
+        let shown = points.filter(|(point, _)| !self.panel.y.hides(point[1]));
+        shown.map(|(point, remark)| (self.on_page(point), remark))
+    }
+
+    fn remarked(&self) -> Vec<([f64; 2], &'a Remark)> {
+        let panel: &'a Panel = self.panel;
+        let dotted = panel.series.iter().filter(|series| series.is_dotted());
+        dotted
+            .flat_map(|series| self.dots(series))
+            .filter_map(|(at, remark)| Some((at, remark?)))
+            .collect()
+    }
+
+    /// The labels of the ticks.
+    pub(super) fn values(&self) -> Vec<Mark> {
+        let font = self.font;
+        let text =
+            |class, at, anchor, words: &str| label(class, anchor, Text::new(at, font, words));
+        let (left, bottom) = (self.x(0.0), self.y(0.0));
+        let across = labelled(&self.x_ticks).map(|(place, value)| {
+            let at = [self.x(place), bottom + 1.25 * font];
+            text("x-value", at, Anchor::Middle, value)
+        });
+        let up = labelled(&self.y_ticks).map(|(place, value)| {
+            let at = [left - 0.45 * font, self.y(place) + 0.35 * font];
+            text("y-value", at, Anchor::End, value)
+        });
+        across.chain(up).collect()
+    }
+
+    /// What the axes measure, the panel's title and its note.
+    fn titles(&self) -> Vec<Mark> {
+        let font = self.font;
+        let Panel {
+            x, y, title, note, ..
+        } = self.panel;
+        let (left, bottom) = (self.x(0.0), self.y(0.0));
+        let (middle, center) = (self.x(0.5), self.y(0.5));
+        let text =
+            |class, at, anchor, words: &str| label(class, anchor, Text::new(at, font, words));
+        let below = [middle, bottom + 2.8 * font];
+        let beside = [
+            left - (longest(&self.y_ticks) * CHARACTER + 1.1) * font,
+            center,
+        ];
+        let upwards = Text {
+            upwards: true,
+            ..Text::new(beside, font, &y.title())
+        };
+        let above = [left, self.y(1.0) - 0.55 * font];
+        let mut marks = vec![
+            text("x-label", below, Anchor::Middle, &x.title()),
+            label("y-label", Anchor::Middle, upwards),
+            text("title", above, Anchor::Start, title),
+        ];
+        if let Some(note) = note {
+            marks.push(text("note", [middle, center], Anchor::Middle, note));
+        }
+        marks
+    }
+}
+
+pub(super) fn label(class: &str, anchor: Anchor, text: Text) -> Mark {
+    Mark::new(class, INK, Shape::Text(Text { anchor, ..text }))
+}
+
+/// Characters of the longest label.
+pub(super) fn longest(ticks: &[Tick]) -> f64 {
+    let lengths = labelled(ticks).map(|(_, label)| label.chars().count());
+    lengths.max().unwrap_or(0) as f64
+}
+
+fn labelled(ticks: &[Tick]) -> impl Iterator<Item = (f64, &str)> {
+    ticks
+        .iter()
+        .filter_map(|tick| Some((tick.place, tick.label.as_deref()?)))
+}

@@ -1,0 +1,130 @@
+//! The curves of a pixel as a plot that stands in the picture itself.
+//!
+//! Both axes hold still from frame to frame as far as they can, so that the curves are seen to
+//! move. Wavelengths run over a decade to each side of the sensor's window (an eye's: 50 to 5000
+//! nm, the range of the paper's curves), on a logarithmic axis, on which a Doppler shift moves a
+//! curve and leaves its shape alone. Spectral radiance is linear, so that the sum is seen to be one;
+//! its axis ends at the radiance of an even light that the frame's exposure shows as white or, where
+//! the curves rise higher, at a higher round value. Both ends are rounded to 1, 2 or 5.
+
+use super::look;
+use super::plot::{SPACING, SURFACE, THERMAL_LIGHT, UNIT, curve, digits, peak, visible};
+use crate::film::Channels;
+use crate::film::plot::{Axis, Color, Panel, Plot, Scale, Stroke, round_up};
+use crate::render::{self, View};
+use crate::scene::{Scene, Thermal};
+use crate::shade::Radiance;
+use crate::shot::{Sensor, Shot};
+use crate::spectrum::cie;
+use crate::trace::{Seen, ShadeTrees};
+
+/// Grey, so that it is told from the others without seeing colours.
+const SUM: Color = [165, 165, 165];
+/// Above the highest point of a curve.
+const HEADROOM: f64 = 1.03;
+/// From the window's ends to those of the axis.
+const BESIDE: f64 = 10.0;
+/// Most wavelengths of a curve: more than any picture has columns for it.
+const MOST: f64 = 8192.0;
+
+/// The plot of what the centre of `pixel`, which lies in the shot's image, sees in `view`. Exposure
+/// is in stops.
+pub fn inset(shot: &Shot, pixel: [u32; 2], view: &View<'_>, scene: &Scene, exposure: f64) -> Plot {
+    let band = band(shot.sensor.window);
+    let count = ((band[1] / band[0]).ln() / SPACING).ceil().min(MOST);
+    let shader = view.shader_over(band, count as u32);
+    let (light, caption) = match look(shot, pixel, view, scene) {
+        Some((trees, _)) => (
+            shader.radiance(&trees, trees.roots[0]),
+            caption(&trees, view, scene),
+        ),
+        None => (Radiance::new(count as usize), "nothing is seen".to_owned()),
+    };
+    let sum = light.total();
+    let largest = (peak(&sum) * HEADROOM).max(white(shot, exposure));
+    let nm = shader.wavelengths_nm();
+    let line = |name: &str, color, width: f64, values| {
+        curve(name, color, Stroke::Solid(width), &nm, values)
+    };
+    // The sum is wide, pale and below, so that what makes it is seen on it.
+    let series = vec![
+        line("sum", SUM, 6.5, sum),
+        line("surface", SURFACE, 2.4, light.surface),
+        line("thermal", THERMAL_LIGHT, 2.4, light.thermal),
+    ];
+    Plot {
+        caption: vec![caption],
+        panels: vec![Panel {
+            title: String::new(),
+            x: Axis::new("wavelength", "nm", Scale::Log, band),
+            y: Axis::in_steps("spectral radiance", UNIT, largest),
+            tints: visible(),
+            series,
+            note: None,
+        }],
+    }
+}
+
+/// Doppler factor and temperature of what is seen first.
+fn caption(trees: &ShadeTrees, view: &View<'_>, scene: &Scene) -> String {
+    let root = trees.roots[0];
+    let Some(node) = trees.nodes_of(root).first() else {
+        return String::new();
+    };
+    let doppler = format!("D = {}", digits(node.doppler, 4));
+    let Seen::Surface(surface) = &node.seen else {
+        return format!("background, {doppler}");
+    };
+    let thermal = scene.materials[surface.material as usize].thermal.as_ref();
+    match thermal.filter(|_| view.called.thermal) {
+        Some(Thermal { temperature_k, .. }) => {
+            let decimals = usize::from(*temperature_k < 100.0);
+            format!("{doppler}, T = {} K", digits(*temperature_k, decimals))
+        }
+        None => doppler,
+    }
+}
+
+/// Spectral radiance of the even light that is just white in the picture, W·m⁻²·sr⁻¹·nm⁻¹; 0
+/// where nothing is.
+fn white(shot: &Shot, exposure: f64) -> f64 {
+    let Sensor { window, .. } = shot.sensor;
+    let of_one = match render::channels(shot) {
+        Channels::Xyz => {
+            let inside = |nm| f64::from((window[0]..=window[1]).contains(&nm));
+            cie::xyz_of(inside)[1]
+        }
+        Channels::Bands => (window[1] - window[0]) / 3.0,
+    };
+    let white = 100.0 * (-exposure).exp2() / of_one;
+    if white.is_finite() { white } else { 0.0 }
+}
+
+/// A decade to each side of a window, rounded inwards.
+fn band([from, to]: [f64; 2]) -> [f64; 2] {
+    // 1, 2 and 5 are their own inverses but for a power of ten.
+    [round_up(from / BESIDE), 1.0 / round_up(1.0 / BESIDE / to)]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_band_is_a_decade_to_each_side_between_round_wavelengths() {
+        for (window, expected) in [
+            ([360.0, 830.0], [50.0, 5000.0]),
+            ([500.0, 500.001], [50.0, 5000.0]),
+            ([1e-6, 2e-6], [1e-7, 2e-5]),
+            ([8000.0, 14_000.0], [1000.0, 100_000.0]),
+        ] {
+            let band = band(window);
+            for (found, expected) in band.into_iter().zip(expected) {
+                assert!(
+                    (found / expected - 1.0).abs() < 1e-12,
+                    "{window:?}: {band:?}"
+                );
+            }
+        }
+    }
+}
