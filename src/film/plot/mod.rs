@@ -13,6 +13,7 @@ mod drawing;
 mod heading;
 mod layout;
 mod line;
+pub mod quantity;
 mod remarks;
 mod svg;
 
@@ -20,6 +21,9 @@ pub use axis::{Axis, Scale, superscript};
 pub use drawing::{Anchor, Drawing, Group, Mark, Shape, Text};
 pub use layout::{Page, lay_out};
 pub use svg::svg;
+
+/// The look of a page of text, tables and drawings, CSS.
+pub const STYLE: &str = include_str!("page.css");
 
 /// An sRGB colour of eight bits.
 pub type Color = [u8; 3];
