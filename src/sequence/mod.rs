@@ -14,6 +14,7 @@ mod ledger;
 mod orphans;
 mod outlier;
 mod output;
+pub mod page;
 mod palette;
 mod parts;
 mod reduce;

@@ -14,6 +14,7 @@ mod heading;
 mod inset;
 mod layout;
 mod line;
+pub mod quantity;
 mod remarks;
 mod sheet;
 mod svg;
@@ -23,6 +24,9 @@ pub use drawing::{Anchor, Drawing, Group, Mark, Shape, Text};
 pub use inset::{LEAST_INSET, lay_out_inset};
 pub use layout::{Page, lay_out};
 pub use svg::svg;
+
+/// The look of a page of text, tables and drawings, CSS.
+pub const STYLE: &str = include_str!("page.css");
 
 /// An sRGB colour of eight bits.
 pub type Color = [u8; 3];

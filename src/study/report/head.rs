@@ -1,10 +1,9 @@
 //! What stands above and below the findings: what was studied, on what, and how to read it.
 
+use crate::film::plot::STYLE;
 use crate::study::findings::Study;
 use crate::study::report::quantity::{number, percent, times};
 use maud::{Markup, PreEscaped, html};
-
-const STYLE: &str = include_str!("style.css");
 
 /// The title, as it stands on the page and in the window's frame.
 fn title(study: &Study) -> &str {

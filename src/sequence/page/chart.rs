@@ -1,0 +1,226 @@
+//! Seconds a frame, phase upon phase, as a drawing whose bars lead to the frames.
+//!
+//! The drawing holds bars alone and is stretched to the page's width, so that 1000 frames find
+//! room; what is written beside it is text of the page, which keeps its size.
+
+use super::view::View;
+use crate::film::plot::quantity::{number, time, unit_of_time};
+use crate::queue::Seconds;
+use maud::{Markup, html};
+
+/// The phases of a frame, the first lowermost.
+pub(super) const PHASES: [(&str, fn(&Seconds) -> f64); 5] = [
+    ("prepare", |s| s.prepare),
+    ("trace", |s| s.trace),
+    ("shade", |s| s.shade),
+    ("encode", |s| s.encode),
+    ("write", |s| s.write),
+];
+
+/// Height of the drawing in its own units; a frame is [`PITCH`] wide there.
+const HEIGHT: f64 = 1000.0;
+const PITCH: f64 = 10.0;
+/// What a bar leaves free of it.
+const GAP: f64 = 1.0;
+
+/// The section; none where no frame has a record.
+pub(super) fn section(views: &[View<'_>]) -> Markup {
+    let longest = views
+        .iter()
+        .filter_map(|view| view.record)
+        .map(|record| record.seconds.total())
+        .filter(|seconds| seconds.is_finite())
+        .fold(0.0, f64::max);
+    html! {
+        @if longest > 0.0 {
+            section aria-labelledby="took" {
+                h2 #took { "Seconds a frame" }
+                ul.legend { @for (i, (phase, _)) in PHASES.iter().enumerate() {
+                    li { span class={ "swatch p" (i + 1) } { } (phase) }
+                } }
+                (drawing(views, &Scale::to(longest)))
+            }
+        }
+    }
+}
+
+/// The vertical axis, from 0.
+struct Scale {
+    top: f64,
+    step: f64,
+    unit: f64,
+    unit_name: &'static str,
+}
+
+impl Scale {
+    /// Ends at the first tick at or above `longest`; ticks are 1, 2 or 5 times powers of ten of a
+    /// unit, and at most five.
+    fn to(longest: f64) -> Self {
+        let (unit, unit_name) = unit_of_time(longest);
+        let value = longest / unit;
+        let power = 10_f64.powf((value / 5.0).log10().floor());
+        let step = [1.0, 2.0, 5.0, 10.0]
+            .map(|digit| digit * power)
+            .into_iter()
+            .find(|step| value <= 5.0 * step)
+            .unwrap_or(10.0 * power);
+        Self {
+            top: (value / step).ceil() * step * unit,
+            step,
+            unit,
+            unit_name,
+        }
+    }
+
+    /// Values in the unit, from below.
+    fn ticks(&self) -> impl Iterator<Item = f64> {
+        let count = (self.top / self.unit / self.step).round() as u32;
+        (0..=count).map(|i| f64::from(i) * self.step)
+    }
+
+    /// Height in the drawing.
+    fn height(&self, seconds: f64) -> f64 {
+        let height = seconds / self.top * HEIGHT;
+        if height.is_finite() {
+            height.clamp(0.0, HEIGHT)
+        } else {
+            0.0
+        }
+    }
+}
+
+fn drawing(views: &[View<'_>], scale: &Scale) -> Markup {
+    let width = PITCH * views.len() as f64;
+    html! {
+        figure.seconds {
+            div.scale aria-hidden="true" { @for tick in scale.ticks() {
+                span style={ "bottom:" (hundredths(scale.height(tick * scale.unit) / HEIGHT * 100.0)) "%" } {
+                    (number(tick)) " " (scale.unit_name)
+                }
+            } }
+            svg #bars viewBox={ "0 0 " (width) " " (HEIGHT) } preserveAspectRatio="none" role="img" aria-label="Seconds a frame, phase upon phase; the numbers are in the table" {
+                @for tick in scale.ticks().skip(1) {
+                    @let y = hundredths(HEIGHT - scale.height(tick * scale.unit));
+                    line x1="0" x2=(width) y1=(y) y2=(y);
+                }
+                @for view in views { (bar(view, scale)) }
+            }
+            div.axis aria-hidden="true" {
+                @for frame in labels(views.len()) { span { (frame) } }
+            }
+            figcaption.axis { "Frames, first to last. A bar leads to its frame." }
+        }
+    }
+}
+
+fn bar(view: &View<'_>, scale: &Scale) -> Markup {
+    let x = f64::from(view.frame - 1) * PITCH;
+    html! {
+        a href={ "#frame-" (view.frame) } data-frame=(view.frame) tabindex="-1" {
+            title { (tip(view)) }
+            @if let Some(record) = view.record {
+                @for (i, low, high) in stacked(&record.seconds, scale) {
+                    rect class={ "p" (i + 1) } x=(x) y=(hundredths(HEIGHT - high)) width=(PITCH - GAP) height=(hundredths(high - low));
+                }
+            }
+            rect.whole x=(x) y="0" width=(PITCH) height=(HEIGHT);
+        }
+    }
+}
+
+/// Which phase, from where to where; without those too small to be drawn.
+fn stacked(seconds: &Seconds, scale: &Scale) -> Vec<(usize, f64, f64)> {
+    let mut below = 0.0;
+    let mut parts = Vec::new();
+    for (i, (_, part)) in PHASES.iter().enumerate() {
+        let low = scale.height(below);
+        below += part(seconds).max(0.0);
+        let high = scale.height(below);
+        if high - low >= 0.01 {
+            parts.push((i, low, high));
+        }
+    }
+    parts
+}
+
+fn tip(view: &View<'_>) -> String {
+    let frame = view.frame;
+    match view.record {
+        None => format!("frame {frame}: {}", view.state.word()),
+        Some(record) => {
+            let part = |(name, part): &(&str, fn(&Seconds) -> f64)| {
+                format!("{name} {}", time(part(&record.seconds)))
+            };
+            let parts: Vec<String> = PHASES.iter().map(part).collect();
+            let total = time(record.seconds.total());
+            format!("frame {frame}: {total} ({})", parts.join(", "))
+        }
+    }
+}
+
+/// Frames that are named below the drawing, evenly apart as far as that is possible.
+fn labels(frames: usize) -> Vec<usize> {
+    let spaces = (1..=4).rev().find(|n| (frames - 1).is_multiple_of(*n));
+    match (frames, spaces) {
+        (1, _) | (_, None) => vec![1],
+        (_, Some(spaces)) => (0..=spaces)
+            .map(|i| 1 + i * (frames - 1) / spaces)
+            .collect(),
+    }
+}
+
+fn hundredths(value: f64) -> f64 {
+    (value * 100.0).round() / 100.0
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_axis_ends_at_a_round_value_above_the_longest() {
+        for (longest, top, ticks) in [
+            (0.31, 0.4, 5),
+            (1.0, 1.0, 6),
+            (7.2, 8.0, 5),
+            (0.0041, 0.005, 6),
+            (90.0, 100.0, 6),
+            (7300.0, 9000.0, 6),
+        ] {
+            let scale = Scale::to(longest);
+            assert!(
+                (scale.top - top).abs() < 1e-9 * top,
+                "{longest}: {}",
+                scale.top
+            );
+            assert_eq!(scale.ticks().count(), ticks, "{longest}");
+        }
+    }
+
+    #[test]
+    fn phases_stand_upon_each_other_and_reach_the_total() {
+        let seconds = Seconds {
+            prepare: 0.1,
+            trace: 0.4,
+            shade: 0.0,
+            encode: 0.2,
+            write: 0.3,
+        };
+        let parts = stacked(&seconds, &Scale::to(1.0));
+        let ends: Vec<(usize, f64)> = parts
+            .iter()
+            .map(|(i, _, high)| (*i, high.round()))
+            .collect();
+        assert_eq!(ends, [(0, 100.0), (1, 500.0), (3, 700.0), (4, 1000.0)]);
+        assert!(parts.windows(2).all(|w| w[0].2 == w[1].1));
+    }
+
+    #[test]
+    fn labels_are_evenly_apart_and_name_the_ends() {
+        assert_eq!(labels(1), [1]);
+        assert_eq!(labels(2), [1, 2]);
+        assert_eq!(labels(49), [1, 13, 25, 37, 49]);
+        assert_eq!(labels(72), [1, 72]);
+        assert_eq!(labels(1000), [1, 334, 667, 1000]);
+    }
+}

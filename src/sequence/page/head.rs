@@ -1,0 +1,229 @@
+//! What stands above the frames: which shot, what became of it, and what is wrong.
+
+use super::run::RunFacts;
+use super::view::{State, View, beside};
+use crate::film::plot::STYLE;
+use crate::film::plot::quantity::{bytes, time};
+use crate::queue::{Record, Reel};
+use indexmap::IndexMap;
+use maud::{Markup, PreEscaped, html};
+
+/// What may lie beside the page, by the end of its name.
+const ASSEMBLED: [(&str, &str); 5] = [
+    ("sheet.png", "contact sheet"),
+    ("gif", "GIF"),
+    ("apng", "APNG"),
+    ("mp4", "video"),
+    ("av1.mp4", "AV1 video"),
+];
+
+fn title(reel: &Reel) -> &str {
+    reel.shot()
+        .shot
+        .title
+        .as_deref()
+        .unwrap_or(&reel.names.stem)
+}
+
+/// The `head` of the page. It allows pictures from its folder and nothing from anywhere else.
+pub(super) fn head(reel: &Reel) -> Markup {
+    html! {
+        head {
+            meta charset="utf-8";
+            meta name="viewport" content="width=device-width, initial-scale=1";
+            meta http-equiv="Content-Security-Policy" content="default-src 'none'; img-src 'self' data: file:; style-src 'unsafe-inline'; script-src 'unsafe-inline'";
+            link rel="icon" href="data:,";
+            title { (title(reel)) ": frames" }
+            style { (PreEscaped(STYLE)) (PreEscaped(include_str!("style.css"))) }
+        }
+    }
+}
+
+/// Warnings first, then the counts, and links to what was assembled.
+pub(super) fn opening(reel: &Reel, run: &RunFacts, views: &[View<'_>]) -> Markup {
+    html! {
+        header {
+            p.kicker { "Frames" }
+            h1 { (title(reel)) }
+            (warnings(run, views))
+            p #counts { strong { (counts(views)) } }
+            p.facts { (shot_file(reel)) (when(views)) (seconds(run, views)) (machines(views)) }
+            (assembled(reel))
+        }
+    }
+}
+
+/// What is amiss, and what the frames' records warn of, each with its frames.
+fn warnings(run: &RunFacts, views: &[View<'_>]) -> Markup {
+    let mut frames: IndexMap<String, Vec<u32>> = IndexMap::new();
+    for view in views {
+        if view.state.is_amiss() {
+            let because = view.state.because().map(|b| format!(": {b}"));
+            let words = format!("{}{}", view.state.word(), because.unwrap_or_default());
+            frames.entry(words).or_default().push(view.frame);
+        }
+    }
+    for view in views {
+        for warning in view.record.iter().flat_map(|record| &record.warnings) {
+            frames.entry(warning.clone()).or_default().push(view.frame);
+        }
+    }
+    html! {
+        @if !frames.is_empty() || !run.warnings.is_empty() {
+            section.noise.warning aria-label="Warnings" {
+                ul {
+                    @for warning in &run.warnings { li { (warning) } }
+                    @for (words, frames) in &frames {
+                        li { b { (named(frames)) } " " (words) }
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// `72 frames: 60 rendered in this run, 12 kept.`
+fn counts(views: &[View<'_>]) -> String {
+    let mut counts: IndexMap<&str, usize> = IndexMap::new();
+    for word in [
+        "rendered", "kept", "finished", "stale", "missing", "broken", "failed",
+    ] {
+        let count = views.iter().filter(|v| v.state.word() == word).count();
+        // That nothing is missing is what one wants to read.
+        if count > 0 || matches!(word, "missing" | "failed") {
+            counts.insert(word, count);
+        }
+    }
+    let words: Vec<String> = counts
+        .iter()
+        .map(|(word, count)| match *word {
+            "rendered" => format!("{count} rendered in this run"),
+            word => format!("{count} {word}"),
+        })
+        .collect();
+    let plural = if views.len() == 1 { "" } else { "s" };
+    format!("{} frame{plural}: {}.", views.len(), words.join(", "))
+}
+
+fn shot_file(reel: &Reel) -> String {
+    let picture = reel.keys.picture();
+    let [width, height] = picture.size;
+    let fps = reel.shot().shot.fps;
+    let plural = if picture.samples == 1 { "" } else { "s" };
+    format!(
+        "{}, {width} × {height} pixels, {} sample{plural} a pixel, {fps} frames a second. ",
+        reel.shot().path.display(),
+        picture.samples
+    )
+}
+
+fn records<'a>(views: &'a [View<'a>]) -> impl Iterator<Item = &'a Record> {
+    views.iter().filter_map(|view| view.record)
+}
+
+fn when(views: &[View<'_>]) -> String {
+    let finished = || records(views).map(|record| record.finished.as_str());
+    match (finished().min(), finished().max()) {
+        (Some(first), Some(last)) if first != last => {
+            format!("The first frame was finished at {first}, the last at {last}. ")
+        }
+        (Some(only), _) => format!("Finished at {only}. "),
+        _ => String::new(),
+    }
+}
+
+fn seconds(run: &RunFacts, views: &[View<'_>]) -> String {
+    let total = |rendered: bool| -> f64 {
+        let counted = views
+            .iter()
+            .filter(|v| !rendered || matches!(v.state, State::Rendered { .. }));
+        counted
+            .filter_map(|v| v.record)
+            .map(|record| record.seconds.total())
+            .sum()
+    };
+    let all = format!("All frames took {}", time(total(false)));
+    match run.seconds {
+        Some(seconds) => format!(
+            "{all}, those of this run {} of its {}. ",
+            time(total(true)),
+            time(seconds)
+        ),
+        None => format!("{all}. "),
+    }
+}
+
+fn machines(views: &[View<'_>]) -> String {
+    let mut machines: Vec<String> = Vec::new();
+    for record in records(views) {
+        let plural = if record.threads == 1 { "" } else { "s" };
+        let Record {
+            host,
+            threads,
+            version,
+            ..
+        } = record;
+        let machine = format!("{host} ({threads} thread{plural}, restframe {version})");
+        if !machines.contains(&machine) {
+            machines.push(machine);
+        }
+    }
+    match machines.len() {
+        0 => String::new(),
+        _ => format!("Rendered on {}.", machines.join(", ")),
+    }
+}
+
+fn assembled(reel: &Reel) -> Markup {
+    let files = ASSEMBLED.iter().filter_map(|(suffix, words)| {
+        let name = reel.names.assembled(suffix);
+        let length = std::fs::metadata(reel.folder.join(&name)).ok()?.len();
+        Some((words, name, length))
+    });
+    let files: Vec<_> = files.collect();
+    html! {
+        @if !files.is_empty() {
+            nav aria-label="Assembled" { ul.links {
+                @for (words, name, length) in &files {
+                    li { a href=(beside(name)) { (words) } " " span.faint { (bytes(*length)) } }
+                }
+            } }
+        }
+    }
+}
+
+/// `Frames 3, 7–9`
+fn named(frames: &[u32]) -> String {
+    let mut ranges: Vec<[u32; 2]> = Vec::new();
+    for &frame in frames {
+        match ranges.last_mut() {
+            Some([_, last]) if *last + 1 == frame => *last = frame,
+            _ => ranges.push([frame, frame]),
+        }
+    }
+    let words: Vec<String> = ranges
+        .iter()
+        .map(|[first, last]| match last - first {
+            0 => first.to_string(),
+            _ => format!("{first}–{last}"),
+        })
+        .collect();
+    let noun = if frames.len() == 1 { "Frame" } else { "Frames" };
+    format!("{noun} {}", words.join(", "))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn frames_are_named_by_ranges() {
+        for (frames, words) in [
+            (&[3][..], "Frame 3"),
+            (&[3, 4], "Frames 3–4"),
+            (&[1, 3, 4, 5, 9], "Frames 1, 3–5, 9"),
+        ] {
+            assert_eq!(named(frames), words);
+        }
+    }
+}

@@ -1,0 +1,159 @@
+//! One frame as the page tells of it.
+
+use super::run::{Outcome, RunFacts};
+use super::thumbnail::{Thumbnail, small};
+use crate::plan::celerity;
+use crate::queue::{Record, Reel, Status};
+use crate::relativity::Celerity;
+use crate::sequence::read;
+use crate::shot::{Format, Shot};
+use rayon::prelude::*;
+
+/// Whether a frame is there, and why.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(super) enum State {
+    Rendered { because: String },
+    Kept,
+    Finished,
+    Stale { because: String },
+    Missing,
+    Broken { because: String },
+    Failed { because: String },
+}
+
+impl State {
+    /// The word for it, which is also its class.
+    pub(super) fn word(&self) -> &'static str {
+        match self {
+            Self::Rendered { .. } => "rendered",
+            Self::Kept => "kept",
+            Self::Finished => "finished",
+            Self::Stale { .. } => "stale",
+            Self::Missing => "missing",
+            Self::Broken { .. } => "broken",
+            Self::Failed { .. } => "failed",
+        }
+    }
+
+    /// Why it is so, where that is not plain.
+    pub(super) fn because(&self) -> Option<&str> {
+        match self {
+            Self::Rendered { because }
+            | Self::Stale { because }
+            | Self::Broken { because }
+            | Self::Failed { because } => Some(because).filter(|b| !b.is_empty()).map(|b| &**b),
+            Self::Kept | Self::Finished | Self::Missing => None,
+        }
+    }
+
+    /// Whether somebody has to do something about it.
+    pub(super) fn is_amiss(&self) -> bool {
+        matches!(
+            self,
+            Self::Stale { .. } | Self::Missing | Self::Broken { .. } | Self::Failed { .. }
+        )
+    }
+}
+
+/// One frame.
+pub(super) struct View<'a> {
+    pub(super) frame: u32,
+    pub(super) state: State,
+    /// None where there is no picture that can be shown.
+    pub(super) picture: Option<Thumbnail>,
+    /// URL of its full picture beside the page.
+    pub(super) full: Option<String>,
+    pub(super) record: Option<&'a Record>,
+    pub(super) facts: Option<Facts>,
+}
+
+/// What moves, and how hot it is.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Facts {
+    /// The fastest motion relative to the camera.
+    pub(super) fastest: Celerity,
+    /// Of the hottest material, K; none where all are at 0.
+    pub(super) temperature_k: Option<f64>,
+    /// Lab time of the exposure, s; none where it stands still.
+    pub(super) time_s: Option<f64>,
+}
+
+impl<'a> View<'a> {
+    /// All frames of a reel, in order.
+    pub(super) fn all(reel: &'a Reel, run: &RunFacts) -> Vec<Self> {
+        let frames = reel.shot().shot.frames;
+        (1..=frames)
+            .into_par_iter()
+            .map(|frame| Self::one(reel, run, frame))
+            .collect()
+    }
+
+    fn one(reel: &'a Reel, run: &RunFacts, frame: u32) -> Self {
+        let shot = reel.shot();
+        let shown = shot.output.formats.contains(&Format::Png);
+        let still = shown.then(|| read(reel, frame));
+        let found = match reel.status(frame, &reel.keys.frame(frame)) {
+            Status::Missing => State::Missing,
+            Status::Stale { because } => State::Stale { because },
+            Status::Fresh => match &still {
+                Some(Err(error)) => State::Broken {
+                    because: error.why.clone(),
+                },
+                _ => told(run.outcomes.get(&frame)),
+            },
+        };
+        let state = match run.outcomes.get(&frame) {
+            Some(Outcome::Failed { because }) => State::Failed {
+                because: because.clone(),
+            },
+            _ => found,
+        };
+        let picture = still
+            .and_then(Result::ok)
+            .and_then(|still| small(still, shot.shot.frames));
+        let name = reel.names.frame(frame, "png");
+        Self {
+            frame,
+            state,
+            full: picture.is_some().then(|| beside(&name)),
+            picture,
+            record: reel.records.get(&frame),
+            facts: facts(shot, frame),
+        }
+    }
+}
+
+/// Of a frame that is there and as it should be.
+fn told(outcome: Option<&Outcome>) -> State {
+    match outcome {
+        Some(Outcome::Rendered { because }) => State::Rendered {
+            because: because.clone(),
+        },
+        Some(Outcome::Kept) => State::Kept,
+        Some(Outcome::Failed { .. }) | None => State::Finished,
+    }
+}
+
+/// The URL of a file beside the page, whatever its name.
+pub(super) fn beside(name: &str) -> String {
+    format!("./{}", urlencoding::encode(name))
+}
+
+fn facts(shot: &Shot, frame: u32) -> Option<Facts> {
+    let frames = shot.shot.frames;
+    let camera = celerity(shot, "camera", frame).ok()?;
+    let moving = shot.worldline.keys().map(String::as_str).chain(["lab"]);
+    let relative =
+        moving.filter_map(|name| Some(celerity(shot, name, frame).ok()?.seen_from(camera)));
+    let fastest = relative.max_by(|a, b| a.lorentz_factor().total_cmp(&b.lorentz_factor()))?;
+    let temperatures = shot.material.values().filter_map(|material| {
+        let temperature = material.thermal.as_ref()?.temperature.as_ref()?;
+        Some(temperature.at(frame, frames))
+    });
+    let time = &shot.shot.time;
+    Some(Facts {
+        fastest,
+        temperature_k: temperatures.filter(|t| *t > 0.0).max_by(f64::total_cmp),
+        time_s: (!time.is_constant()).then(|| time.at(frame, frames)),
+    })
+}
