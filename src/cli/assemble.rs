@@ -1,9 +1,13 @@
 //! `restframe assemble`.
 
+use super::finish::claim;
 use super::verify::{open, worse};
 use super::{Failed, FinishedArguments, failed, print, print_json, say};
+use crate::queue::Reel;
+use crate::sequence::page::{self, RunFacts};
 use crate::sequence::{AssembleError, assemble};
 use serde_json::json;
+use std::path::PathBuf;
 
 /// Assembles every shot; one that fails does not keep the others from it.
 pub(super) fn run(arguments: &FinishedArguments) -> Result<(), Failed> {
@@ -18,10 +22,22 @@ pub(super) fn run(arguments: &FinishedArguments) -> Result<(), Failed> {
             }
         };
         let shot = path.display();
-        let (made, failures) = match assemble(&reel, &|note| say(note)) {
-            Ok(made) => (made, Vec::new()),
-            Err(AssembleError::Some { made, failures }) => (made, failures),
-            Err(error) => (Vec::new(), vec![error.to_string()]),
+        let (made, failures) = if reel.folder.is_dir() {
+            match claim(&reel) {
+                Ok(_claim) => make(&reel),
+                Err(failed) => {
+                    worst = worse(worst, failed);
+                    continue;
+                }
+            }
+        } else {
+            let folder = reel.folder.display();
+            (
+                Vec::new(),
+                vec![format!(
+                    "there is no folder {folder}; render the shot first"
+                )],
+            )
         };
         for failure in &failures {
             worst = worse(worst, failed(&format!("{shot}: {failure}")));
@@ -43,4 +59,20 @@ pub(super) fn run(arguments: &FinishedArguments) -> Result<(), Failed> {
         print_json(&json!({ "shots": reports }))?;
     }
     worst.map_or(Ok(()), Err)
+}
+
+/// What could be made, and why the rest could not.
+fn make(reel: &Reel) -> (Vec<PathBuf>, Vec<String>) {
+    let (mut made, mut failures) = match assemble(reel, &|note| say(note)) {
+        Ok(made) => (made, Vec::new()),
+        Err(AssembleError::Some { made, failures }) => (made, failures),
+        Err(error) => return (Vec::new(), vec![error.to_string()]),
+    };
+    if reel.shot().sequence.page {
+        match page::write(reel, &RunFacts::default()) {
+            Ok(page) => made.push(page),
+            Err(error) => failures.push(error.to_string()),
+        }
+    }
+    (made, failures)
 }

@@ -6,6 +6,7 @@
 
 mod assemble;
 mod check;
+mod finish;
 mod plan;
 mod probe;
 mod render;

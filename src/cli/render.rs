@@ -1,11 +1,13 @@
 //! `restframe render`.
 
+use super::finish::Finisher;
 use super::{FAILURE, Failed, ProgressMode, RenderArguments, failed, mistaken, misused, say};
 use crate::queue::{
     Force, FrameList, Job, Night, Prepared, Progress, ReelError, Request, Resolved, Results, Stop,
     choose_shard, list_of,
 };
 use crate::shot::{self, LARGEST_SIDE, Mistakes, Shot};
+use std::cell::Cell;
 use std::collections::HashMap;
 use std::path::Path;
 use std::sync::Arc;
@@ -65,11 +67,20 @@ fn render(arguments: &RenderArguments, progress: &Progress, stop: &Stop) -> Resu
         stop: stop.asked(),
         force,
     };
-    night.render(&mut jobs, &|_job| ());
+    let finisher = Finisher {
+        progress,
+        stop: stop.asked(),
+    };
+    let finished = Cell::new(Ok(()));
+    night.render(&mut jobs, &|job| {
+        if let Err(failed) = finisher.finish(job) {
+            finished.set(Err(failed));
+        }
+    });
     let missing = missing(&jobs);
     match missing {
         _ if stop.status().is_some() => Ok(()),
-        None if closed == Closed::None => Ok(()),
+        None if closed == Closed::None => finished.into_inner(),
         None => Err(Failed(FAILURE)),
         Some(missing) => {
             progress.error(&missing);
