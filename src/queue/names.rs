@@ -23,6 +23,11 @@ impl Names {
         }
     }
 
+    /// The names in a folder called as its shot's stem; its frames are not counted.
+    pub(super) fn of_stem(stem: String) -> Self {
+        Self { stem, digits: 4 }
+    }
+
     /// STEM.0012.png
     pub fn frame(&self, frame: u32, extension: &str) -> String {
         format!("{}.{}.{extension}", self.stem, self.number(frame))

@@ -6,7 +6,10 @@ use crate::shot::{Effects, Mistake, Mistakes, Shot, Spectra};
 
 /// Refuses the first frame that calls for the Doppler shift of three numbers, in all of the image
 /// or in a splice. Frames without a velocity are left to those who resolve them.
-pub(super) fn refuse_shifted_numbers(shot: &Shot) -> Result<(), Mistakes> {
+///
+/// # Errors
+/// The frame and the key.
+pub fn refuse_shifted_numbers(shot: &Shot) -> Result<(), Mistakes> {
     if shot.accuracy.spectra != Spectra::Rgb {
         return Ok(());
     }

@@ -146,8 +146,12 @@ fn the_order_of_worldlines_counts_where_a_layer_numbers_them() {
     let desk = Desk::new();
     let exr = with("[\"png\"]", "[\"exr\"]\nlayers = [\"worldline\"]");
     let other = "[worldline.other]\nvelocity = [0, 0, 0.5]\n";
-    let moved = exr.replace(other, "") + other;
+    let moved = exr
+        .replace(other, "")
+        .replace("[worldline.w]", &format!("{other}[worldline.w]"));
     assert_eq!(differing(&desk, &exr, &moved).len(), 9);
+    let png = |text: &str| text.replace("[\"exr\"]\nlayers = [\"worldline\"]", "[\"png\"]");
+    assert_eq!(differing(&desk, &png(&exr), &png(&moved)), [0; 0]);
 }
 
 #[test]

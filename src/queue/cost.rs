@@ -1,0 +1,248 @@
+//! What frames will take: seconds, from those that frames like them took; memory and disk.
+//!
+//! Seconds grow with pixels × samples, so each finished frame tells a rate, kept by the effects that
+//! it was rendered with. A frame is judged by the mean rate of this shot's frames with the same
+//! effects, else of any of this shot, else of the other shots below the same folder, else by a guess.
+
+use super::manifest::{Record, read_records};
+use super::names::Names;
+use super::reel::Reel;
+use crate::plan::{Called, Picture};
+use crate::shot::{Beaming, Format, Shot};
+use std::collections::HashMap;
+use std::fs;
+use std::path::Path;
+
+/// Seconds a ray of frames that nothing is known of: measured on two cores, release build, over the
+/// gallery's shots, where it is between 1e-7 (a starry sky) and 3e-6 (a mirror ball among lamps). A
+/// debug build takes three times as long.
+const GUESSED: Rate = Rate {
+    trace: 5e-7,
+    shade: 3e-7,
+};
+
+/// Bytes a pixel of a PNG, of noise-free pictures; and what its metadata takes.
+const PNG_BYTES: [u64; 2] = [1, 4096];
+
+/// Bytes a value of an EXR; compression takes away about half.
+const EXR_BYTES: u64 = 2;
+
+/// Memory of a mesh and its trees over the bytes of its file, which is text or packed floats:
+/// measured from 2 (OBJ) to 5 (glb with 16-bit indices).
+const MESH_FACTOR: u64 = 5;
+
+/// Memory of the program itself, threads and tables: 30 MiB.
+const PROGRAM_BYTES: u64 = 30 << 20;
+
+/// Seconds a ray, by what the ray is for.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+struct Rate {
+    /// From the camera to shade trees, with what precedes it.
+    trace: f64,
+    /// From shade trees to files.
+    shade: f64,
+}
+
+/// Rates of some finished frames.
+#[derive(Debug, Clone, Copy, Default)]
+struct Mean {
+    sum: Rate,
+    frames: f64,
+}
+
+impl Mean {
+    fn add(&mut self, rate: Rate) {
+        self.sum.trace += rate.trace;
+        self.sum.shade += rate.shade;
+        self.frames += 1.0;
+    }
+
+    fn rate(&self) -> Option<Rate> {
+        (self.frames > 0.0).then(|| Rate {
+            trace: self.sum.trace / self.frames,
+            shade: self.sum.shade / self.frames,
+        })
+    }
+}
+
+/// What one frame will take.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Estimate {
+    /// Seconds of the clock on the wall until its shade trees are there; frames that share them
+    /// take this once.
+    pub trace: f64,
+    /// Seconds from there to its files.
+    pub shade: f64,
+    /// Whether that rests on frames finished here; else it is a guess.
+    pub measured: bool,
+}
+
+impl Estimate {
+    /// Seconds of a frame on its own.
+    pub fn seconds(&self) -> f64 {
+        self.trace + self.shade
+    }
+}
+
+/// What finished frames tell about others.
+#[derive(Debug, Clone, Default)]
+pub struct Costs {
+    by_effects: HashMap<Vec<String>, Mean>,
+    own: Mean,
+    others: Mean,
+}
+
+impl Costs {
+    /// What the frames of a reel tell, or, where it has none, those in the folders beside its own.
+    /// A folder that cannot be read tells nothing.
+    pub fn new(reel: &Reel) -> Self {
+        let mut costs = Self::default();
+        reel.records.values().for_each(|record| costs.learn(record));
+        if reel.records.is_empty()
+            && let Some(out) = reel.folder.parent()
+        {
+            costs.learn_from_others(out);
+        }
+        costs
+    }
+
+    /// Counts a finished frame of this shot.
+    pub fn learn(&mut self, record: &Record) {
+        if let Some(rate) = rate_of(record) {
+            let effects = record.effects.clone();
+            self.by_effects.entry(effects).or_default().add(rate);
+            self.own.add(rate);
+        }
+    }
+
+    fn learn_from_others(&mut self, out: &Path) {
+        let entries = fs::read_dir(out).into_iter().flatten();
+        for entry in entries.filter_map(Result::ok) {
+            let stem = entry.file_name().to_string_lossy().into_owned();
+            let records = read_records(&entry.path(), &Names::of_stem(stem));
+            for rate in records.unwrap_or_default().values().filter_map(rate_of) {
+                self.others.add(rate);
+            }
+        }
+    }
+
+    /// What a frame of these effects and size will take.
+    pub fn estimate(&self, effects: &[String], picture: Picture) -> Estimate {
+        let same = self.by_effects.get(effects).and_then(Mean::rate);
+        let known = same
+            .or_else(|| self.own.rate())
+            .or_else(|| self.others.rate());
+        let Rate { trace, shade } = known.unwrap_or(GUESSED);
+        let rays = rays(picture.size, picture.samples);
+        Estimate {
+            trace: trace * rays,
+            shade: shade * rays,
+            measured: known.is_some(),
+        }
+    }
+
+    /// Seconds that a frame of these effects and size will take on its own.
+    pub fn seconds(&self, effects: &[String], picture: Picture) -> f64 {
+        self.estimate(effects, picture).seconds()
+    }
+}
+
+/// Names of the effects that are simulated, as [`Record::effects`] has them.
+pub fn effect_names(called: &Called) -> Vec<String> {
+    [
+        ("geometry", called.geometry),
+        ("doppler", called.doppler),
+        ("beaming", called.beaming != Beaming::Off),
+        ("thermal", called.thermal),
+        ("shadows", called.shadows),
+        ("mirror", called.mirror),
+        ("refraction", called.refraction),
+    ]
+    .into_iter()
+    .filter(|(_, is_on)| *is_on)
+    .map(|(name, _)| name.to_owned())
+    .collect()
+}
+
+fn rays([width, height]: [u32; 2], samples: u32) -> f64 {
+    f64::from(width) * f64::from(height) * f64::from(samples)
+}
+
+/// The seconds a ray of a finished frame. Of a shared trace it has only its part.
+fn rate_of(record: &Record) -> Option<Rate> {
+    let seconds = &record.seconds;
+    let rays = rays(record.size, record.samples);
+    let whole = f64::from(record.shared.max(1));
+    let rate = Rate {
+        trace: (seconds.prepare + seconds.trace) * whole / rays,
+        shade: (seconds.shade + seconds.encode + seconds.write) / rays,
+    };
+    let sane = |seconds: f64| seconds.is_finite() && seconds >= 0.0;
+    (sane(rate.trace) && sane(rate.shade)).then_some(rate)
+}
+
+/// Bytes that the files of a frame take: as many as finished ones of this size on average, else by
+/// what pictures usually take.
+pub fn frame_bytes(reel: &Reel) -> u64 {
+    let picture = reel.keys.picture();
+    let alike = |record: &&Record| record.size == picture.size;
+    let sizes: Vec<u64> = reel
+        .records
+        .values()
+        .filter(alike)
+        .map(|record| {
+            record
+                .files
+                .iter()
+                .map(|file| file.bytes)
+                .fold(0, u64::saturating_add)
+        })
+        .collect();
+    if let Some(mean) = sizes
+        .iter()
+        .fold(0, |sum: u64, bytes| sum.saturating_add(*bytes))
+        .checked_div(sizes.len() as u64)
+    {
+        return mean;
+    }
+    let output = &reel.shot().output;
+    let pixels = pixels(picture);
+    let of_format = |format: &Format| match format {
+        Format::Png => PNG_BYTES[0] * pixels + PNG_BYTES[1],
+        Format::Exr => EXR_BYTES * (3 + output.layers.len() as u64) * pixels,
+    };
+    output.formats.iter().map(of_format).sum()
+}
+
+/// Bytes of memory that rendering takes: the films of as many frames as are in work at once, one of
+/// them as it is developed and encoded, and the meshes.
+pub fn memory_bytes(reel: &Reel, films: u64) -> u64 {
+    let shot = reel.shot();
+    let layers = match shot.output.formats.contains(&Format::Exr) {
+        true => shot.output.layers.len() as u64,
+        false => 0,
+    };
+    let film = 12 + 4 * layers;
+    // Developed values, bytes of a picture and the encoder's copy of them.
+    let developed = 12 + 3 + 16 + 4 * layers;
+    let pictures = pixels(reel.keys.picture()).saturating_mul(film * films + developed);
+    let meshes = MESH_FACTOR.saturating_mul(model_bytes(shot));
+    PROGRAM_BYTES
+        .saturating_add(pictures)
+        .saturating_add(meshes)
+}
+
+fn pixels(picture: Picture) -> u64 {
+    picture.size.map(u64::from).iter().product()
+}
+
+/// Bytes of the model files, each counted once.
+fn model_bytes(shot: &Shot) -> u64 {
+    let files: std::collections::BTreeSet<&Path> = shot
+        .model
+        .iter()
+        .map(|model| model.file.as_path())
+        .collect();
+    let length = |file: &Path| fs::metadata(shot.beside(file)).map_or(0, |about| about.len());
+    files.into_iter().map(length).sum()
+}
