@@ -29,34 +29,35 @@ struct Images {
     prepared: Prepared,
     scene: Scene,
     stage: Stage,
+    options: Options,
     pool: rayon::ThreadPool,
 }
-
-const OPTIONS: Options = Options {
-    width: 160,
-    height: 90,
-    samples: 16,
-    layers: Vec::new(),
-};
 
 impl Images {
     /// Most time goes into shadow rays.
     fn slow_to_trace() -> Self {
-        Self::new("shell", "", "")
+        Self::new("shell", "", "", [160, 90])
     }
 
     /// Most time goes into spectra: the lamp's shift is not that of the shell.
     fn slow_to_shade() -> Self {
-        Self::new("lab", "shadows = \"off\"", "spectra = \"spline\"")
+        let (effects, accuracy) = ("shadows = \"off\"", "spectra = \"spline\"");
+        Self::new("lab", effects, accuracy, [32, 18])
     }
 
-    fn new(lamp: &str, effects: &str, accuracy: &str) -> Self {
+    fn new(lamp: &str, effects: &str, accuracy: &str, [width, height]: [u32; 2]) -> Self {
         let (prepared, scene, stage) = shell(0.5, lamp, effects, accuracy);
         let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build();
         Self {
             prepared,
             scene,
             stage,
+            options: Options {
+                width,
+                height,
+                samples: 16,
+                layers: Vec::new(),
+            },
             pool: pool.expect("a thread can be had"),
         }
     }
@@ -68,12 +69,12 @@ impl Images {
             scene: &self.scene,
         };
         let members = vec![member; count];
-        films(&self.pool, &members, &self.stage, &OPTIONS)
+        films(&self.pool, &members, &self.stage, &self.options)
     }
 
     fn alone(&self, count: usize) -> Vec<Film> {
         let (shot, scene, stage) = (&self.prepared.shot, &self.scene, &self.stage);
-        let one = |_| render(shot, 1, scene, stage, &OPTIONS, &|_| ());
+        let one = |_| render(shot, 1, scene, stage, &self.options, &|_| ());
         let films = self.pool.install(|| (0..count).map(one).collect());
         let films: Result<_, _> = films;
         films.expect("nothing keeps it from rendering")
