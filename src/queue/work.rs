@@ -264,7 +264,11 @@ impl Foreman<'_> {
             error.unwrap_or_else(|| io::Error::other("there is no manifest to record it in"));
         self.failed(job, task, &error.to_string());
         if is_full(&error) {
-            job.halted = Some("there is no room for its images".to_owned());
+            let why = "there is no room for its images";
+            let path = job.reel.shot().path.display();
+            self.progress
+                .error(&format!("{path}: {why}; its other frames are left"));
+            job.halted = Some(why.to_owned());
         }
     }
 
