@@ -65,7 +65,7 @@ fn render(arguments: &RenderArguments, progress: &Progress, stop: &Stop) -> Resu
         stop: stop.asked(),
         force,
     };
-    night.render(&mut jobs, &|_job| ());
+    night.render(&mut jobs, &mut |_finished| ());
     let missing = missing(&jobs);
     match missing {
         _ if stop.status().is_some() => Ok(()),

@@ -7,7 +7,7 @@ use std::fs;
 #[test]
 fn a_limit_on_file_sizes_fails_one_shot_with_a_sentence_and_tears_nothing() {
     let desk = Desk::new();
-    // A KiB: of `glowing`, neither EXR nor manifest fit; what fits is whole.
+    // Blocks of a KiB: pictures of `glowing` fit while they are dark, its manifest while it is short.
     let outcome = desk.shell("ulimit -f 4; exec $restframe render glowing.toml --json");
     assert_eq!(outcome.status, Some(1), "{}", outcome.stderr);
     assert!(
@@ -25,10 +25,9 @@ fn a_limit_on_file_sizes_fails_one_shot_with_a_sentence_and_tears_nothing() {
         (&summary["event"], &summary["exit"]),
         (&"summary".into(), &1.into())
     );
-    assert_eq!(
-        (&summary["failed"], &summary["left"]),
-        (&1.into(), &5.into())
-    );
+    // A line of the manifest or an EXR was the first not to fit.
+    assert_eq!(summary["failed"], 1);
+    assert!(summary["left"].as_u64() > Some(0), "{summary}");
     for name in desk.pictures("renders").keys() {
         assert!(
             image::open(desk.path("renders").join(name)).is_ok(),
@@ -40,12 +39,10 @@ fn a_limit_on_file_sizes_fails_one_shot_with_a_sentence_and_tears_nothing() {
         "{:?}",
         desk.names("renders")
     );
-    assert_eq!(
-        desk.done("render glowing.toml --json")
-            .frames("rendered")
-            .len(),
-        6
-    );
+    let again = desk.done("render glowing.toml --json");
+    assert!(!again.frames("rendered").is_empty());
+    desk.done("render glowing.toml --out whole");
+    assert!(desk.pictures("renders") == desk.pictures("whole"));
 }
 
 #[test]
