@@ -9,7 +9,7 @@ use super::picture::{Pictures, Taken, pictures};
 use super::progress::Progress;
 use super::record::{blank, stops, warnings};
 use super::shots::{Exposing, Prepared, RenderError, check_memory};
-use super::write::{is_full, write_atomically};
+use super::write::{is_full, twice, write_atomically};
 use crate::film::Film;
 use crate::plan::{self, MotionError};
 use crate::render::{Member, Together, TogetherError, Watch, motion_mistake, render_together};
@@ -20,7 +20,6 @@ use rayon::prelude::*;
 use std::io;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::thread::sleep;
 use std::time::{Duration, Instant};
 
 /// A frame that this process alone works on.
@@ -344,16 +343,4 @@ fn mistaken(index: usize, mistakes: Mistakes) -> Undone {
 fn prepared(job: &Job) -> &Prepared {
     let prepared = job.prepared.as_ref();
     prepared.expect("a shot with frames to be rendered is prepared first")
-}
-
-/// Does once more what failed for a reason that may pass.
-fn twice(act: impl Fn() -> io::Result<()>) -> io::Result<()> {
-    const PAUSE: Duration = Duration::from_millis(200);
-    act().or_else(|error| {
-        if is_full(&error) {
-            return Err(error);
-        }
-        sleep(PAUSE);
-        act()
-    })
 }
