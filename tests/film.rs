@@ -59,6 +59,7 @@ fn metadata() -> Metadata {
         lorentz_factor: Some(1e6),
         time_s: Some(-11.5),
         worldlines: vec!["lab".into(), "Züge, fast".into()],
+        fingerprint: Some("0123abcd".into()),
         shot: Some(SHOT.into()),
     }
 }
@@ -238,6 +239,7 @@ fn an_exr_tells_everything_that_was_decided_about_the_frame() {
         ),
         ("restframe:gamma", AttributeValue::F64(1e6)),
         ("restframe:exposure", AttributeValue::F64(1.0)),
+        ("restframe:fingerprint", string("0123abcd")),
         ("restframe:shot", string(SHOT)),
     ] {
         assert_eq!(free(name), Some(expected), "{name}");
@@ -336,6 +338,7 @@ fn a_png_gives_back_every_byte_and_says_what_they_mean() {
         ("restframe:exposure", "1"),
         ("restframe:samples", "16"),
         ("restframe:worldlines", "[\"lab\",\"Züge, fast\"]"),
+        ("restframe:fingerprint", "0123abcd"),
         ("restframe:shot", SHOT),
     ] {
         assert!(

@@ -54,7 +54,7 @@ fn render(shot: &Path, frames: &[u32], out: &Path) {
         force: Force::Yes,
     };
     let mut jobs = [job];
-    night.render(&mut jobs, &|_| ());
+    night.render(&mut jobs, &mut |_| ());
     assert_eq!(jobs[0].missing(), [0; 0]);
 }
 

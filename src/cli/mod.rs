@@ -81,7 +81,8 @@ struct RenderArguments {
     /// Render finished frames too, whose inputs have not changed
     #[arg(long)]
     force: bool,
-    /// How progress is shown on standard error: auto is a bar on a terminal and lines elsewhere
+    /// How progress is shown on standard error: auto is a bar on a terminal and lines elsewhere,
+    /// json one object a line; openjd tells Open Job Description on standard output
     #[arg(long, value_name = "MODE", value_enum, default_value = "auto")]
     progress: ProgressMode,
     /// Tell what happens on standard output, one JSON object a line
@@ -94,9 +95,7 @@ enum ProgressMode {
     Auto,
     Bar,
     Plain,
-    /// JSON, one object a line
     Json,
-    /// Lines on standard output as Open Job Description has them
     #[value(name = "openjd")]
     OpenJd,
     None,

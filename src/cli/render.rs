@@ -7,7 +7,6 @@ use crate::queue::{
     choose_shard, list_of,
 };
 use crate::shot::{self, LARGEST_SIDE, Mistakes, Shot};
-use std::cell::Cell;
 use std::collections::HashMap;
 use std::path::Path;
 use std::sync::Arc;
@@ -71,16 +70,16 @@ fn render(arguments: &RenderArguments, progress: &Progress, stop: &Stop) -> Resu
         progress,
         stop: stop.asked(),
     };
-    let finished = Cell::new(Ok(()));
-    night.render(&mut jobs, &|job| {
+    let mut finished = Ok(());
+    night.render(&mut jobs, &mut |job| {
         if let Err(failed) = finisher.finish(job) {
-            finished.set(Err(failed));
+            finished = Err(failed);
         }
     });
     let missing = missing(&jobs);
     match missing {
         _ if stop.status().is_some() => Ok(()),
-        None if closed == Closed::None => finished.into_inner(),
+        None if closed == Closed::None => finished,
         None => Err(Failed(FAILURE)),
         Some(missing) => {
             progress.error(&missing);

@@ -139,11 +139,11 @@ fn file_names(folder: &Path) -> Vec<String> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::shot::parse;
+    use crate::shot::load;
 
     fn names() -> Names {
-        let text = "[[model]]\nfile = \"a.obj\"\n[camera]\nposition = [0, 0, 3]\n";
-        Names::new(&parse(text, Path::new("rows.toml")).expect("a sound shot"))
+        let shot = Path::new(env!("CARGO_MANIFEST_DIR")).join("shots/rows.toml");
+        Names::new(&load(&shot).expect("a sound shot"))
     }
 
     #[test]

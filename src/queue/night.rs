@@ -25,7 +25,7 @@ impl Night<'_> {
     /// Renders what is to be rendered of jobs that are furnished. Goes on after a frame that fails,
     /// and after a shot that can do no more. `ended` is told of each job that nothing is left to do
     /// for, unless it was stopped before.
-    pub fn render(self, jobs: &mut [Job], ended: &dyn Fn(&mut Job)) {
+    pub fn render(self, jobs: &mut [Job], ended: &mut dyn FnMut(&mut Job)) {
         let Self {
             progress,
             stop,
@@ -106,7 +106,7 @@ fn keep(job: &mut Job, force: Force, progress: &Progress) {
     }
 }
 
-fn end_all(jobs: &mut [Job], ended: &dyn Fn(&mut Job)) {
+fn end_all(jobs: &mut [Job], ended: &mut dyn FnMut(&mut Job)) {
     for job in jobs {
         if job.end == End::Ahead && job.is_settled() {
             job.end = End::Told;

@@ -59,15 +59,16 @@ fn effects(shot: &Shot, frame: u32) -> Vec<String> {
         .chain(splices)
         .filter_map(|effects| plan::called(shot, frame, &effects).ok())
         .collect();
-    let table: [(&str, fn(&Called) -> bool); 7] = [
-        ("geometry", |called| called.geometry),
-        ("doppler", |called| called.doppler),
-        ("beaming", |called| called.beaming != Beaming::Off),
-        ("thermal", |called| called.thermal),
-        ("shadows", |called| called.shadows),
-        ("mirror", |called| called.mirror),
-        ("refraction", |called| called.refraction),
+    let any = |is: fn(&Called) -> bool| parts.iter().any(is);
+    let table = [
+        ("geometry", any(|called| called.geometry)),
+        ("doppler", any(|called| called.doppler)),
+        ("beaming", any(|called| called.beaming != Beaming::Off)),
+        ("thermal", any(|called| called.thermal)),
+        ("shadows", any(|called| called.shadows)),
+        ("mirror", any(|called| called.mirror)),
+        ("refraction", any(|called| called.refraction)),
     ];
-    let named = table.into_iter().filter(|(_, is)| parts.iter().any(is));
+    let named = table.into_iter().filter(|(_, is)| *is);
     named.map(|(name, _)| name.to_owned()).collect()
 }

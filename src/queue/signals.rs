@@ -48,8 +48,10 @@ mod system {
     use std::sync::atomic::{AtomicBool, Ordering};
     use std::time::Duration;
 
-    /// How long the work may take to stop: two seconds are promised.
-    const PATIENCE: Duration = Duration::from_millis(1800);
+    /// How long the work may take to stop, and how long it may then take to tell so (a pipe that
+    /// nobody reads would take for ever): two seconds are promised.
+    const PATIENCE: Duration = Duration::from_millis(1700);
+    const LAST_WORDS: Duration = Duration::from_millis(100);
 
     pub(super) fn listen(stop: Stop, late: impl Fn(u8) + Send + 'static) -> std::io::Result<()> {
         // With a handler, if only of a flag that nobody reads, a file that grows beyond the limit
@@ -69,7 +71,8 @@ mod system {
                 stop.asked.store(true, Ordering::SeqCst);
                 std::thread::spawn(move || {
                     std::thread::sleep(PATIENCE);
-                    late(status);
+                    std::thread::spawn(move || late(status));
+                    std::thread::sleep(LAST_WORDS);
                     std::process::exit(status.into());
                 });
             }

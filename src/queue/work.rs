@@ -9,9 +9,9 @@ use super::picture::{Pictures, Taken, pictures};
 use super::progress::Progress;
 use super::record::{blank, stops, warnings};
 use super::shots::{Exposing, Prepared, RenderError, check_memory};
-use super::write::{is_full, write_atomically};
+use super::write::{is_full, twice, write_atomically};
 use crate::film::Film;
-use crate::plan;
+use crate::plan::{self, MotionError};
 use crate::render::{Member, Together, TogetherError, Watch, motion_mistake, render_together};
 use crate::scene::Scene;
 use crate::shot::{Mistakes, Shot};
@@ -20,7 +20,6 @@ use rayon::prelude::*;
 use std::io;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::thread::sleep;
 use std::time::{Duration, Instant};
 
 /// A frame that this process alone works on.
@@ -78,25 +77,14 @@ impl Foreman<'_> {
         let kept = jobs[first].kept.take();
         let scenes = scenes(jobs, batch, kept.as_ref().map(|(scene, _)| scene))?;
         let jobs = &*jobs;
-        let shots = || batch.iter().map(|ready| jobs[ready.task.job].reel.shot());
-        let stage = match kept {
-            Some((old, stage)) if Arc::ptr_eq(&old.geometry, &scenes[0].geometry) => stage,
-            other => Stage::with_precision(
-                &scenes[0].geometry,
-                other.as_ref().map(|(_, stage)| stage),
-                jobs[first].reel.shot().accuracy.tracing,
-            ),
-        };
+        let stage = stage(kept, &scenes[0], jobs[first].reel.shot());
         let prepare = begun.elapsed().as_secs_f64();
-        let members: Vec<Member<'_>> = shots()
-            .zip(batch)
-            .zip(&scenes)
-            .map(|((shot, ready), scene)| Member {
-                shot,
-                frame: ready.task.frame,
-                scene,
-            })
-            .collect();
+        let member = |(ready, scene)| {
+            let Ready { task, .. }: &Ready = ready;
+            let (shot, frame) = (jobs[task.job].reel.shot(), task.frame);
+            Member { shot, frame, scene }
+        };
+        let members: Vec<Member<'_>> = batch.iter().zip(&scenes).map(member).collect();
         let options = &jobs[first].options;
         let rays =
             f64::from(options.width) * f64::from(options.height) * f64::from(options.samples);
@@ -106,20 +94,11 @@ impl Foreman<'_> {
             done: &|rays| self.progress.advance(rays as f64 * work_per_ray),
             stop: self.stop,
         };
-        let mut together = match render_together(&members, &stage, options, watch) {
-            Ok(together) => together,
-            Err(TogetherError::Stopped) => return Err(Undone::Stopped),
-            Err(TogetherError::Motion(error)) => {
-                // All shots may have a worldline of the name; the one that fails says so itself.
-                let fails = |(shot, ready): &(&Shot, &Ready)| {
-                    plan::celerity(shot, &error.worldline, ready.task.frame).is_err()
-                };
-                let found = shots().zip(batch).position(|member| fails(&member));
-                let index = found.unwrap_or(0);
-                let shot = jobs[batch[index].task.job].reel.shot();
-                return Err(mistaken(index, motion_mistake(shot, &error)));
-            }
-        };
+        let rendered = render_together(&members, &stage, options, watch);
+        let mut together = rendered.map_err(|error| match error {
+            TogetherError::Stopped => Undone::Stopped,
+            TogetherError::Motion(error) => astray(&members, &error),
+        })?;
         together.prepare += prepare;
         Ok(Shoot {
             first,
@@ -164,9 +143,10 @@ impl Foreman<'_> {
         let part = |seconds: f64| seconds / shared as f64;
         let mut rest = batch.into_iter().zip(&scenes).zip(films);
         let threads = rayon::current_num_threads();
+        let mut patience = Patience::default();
         loop {
             let chunk: Vec<((Ready, &Scene), Film)> = rest.by_ref().take(threads).collect();
-            if chunk.is_empty() || self.is_stopped() {
+            if chunk.is_empty() || self.is_stopped() && patience.is_out() {
                 break;
             }
             let begun = Instant::now();
@@ -202,6 +182,7 @@ impl Foreman<'_> {
                 // Only now may another process look at the frame.
                 drop(ready.claim);
             }
+            patience.last = begun.elapsed();
         }
         drop(rest);
         jobs[first].kept = scenes.into_iter().next().map(|scene| (scene, stage));
@@ -264,7 +245,11 @@ impl Foreman<'_> {
             error.unwrap_or_else(|| io::Error::other("there is no manifest to record it in"));
         self.failed(job, task, &error.to_string());
         if is_full(&error) {
-            job.halted = Some("there is no room for its images".to_owned());
+            let why = "there is no room for its images";
+            let path = job.reel.shot().path.display();
+            self.progress
+                .error(&format!("{path}: {why}; its other frames are left"));
+            job.halted = Some(why.to_owned());
         }
     }
 
@@ -284,6 +269,24 @@ impl Foreman<'_> {
         self.progress
             .frame(path, (task.frame, &deed), &files, task.work);
         job.deeds.insert(task.frame, deed);
+    }
+}
+
+/// How long films that are rendered may still be written after a signal: two seconds are promised
+/// until the end, and to throw away a night's trace would be a pity.
+#[derive(Default)]
+struct Patience {
+    /// When a signal was first seen.
+    since: Option<Instant>,
+    /// What the last films took, as many as threads.
+    last: Duration,
+}
+
+impl Patience {
+    fn is_out(&mut self) -> bool {
+        const PATIENCE: Duration = Duration::from_secs(1);
+        let since = *self.since.get_or_insert_with(Instant::now);
+        since.elapsed() + self.last > PATIENCE
     }
 }
 
@@ -313,6 +316,26 @@ fn scenes(jobs: &[Job], batch: &[Ready], kept: Option<&Scene>) -> Result<Vec<Sce
     Ok(scenes)
 }
 
+/// Bodies taken over from the last image where they stand as they stood, trees where they can be.
+fn stage(kept: Option<(Scene, Stage)>, scene: &Scene, shot: &Shot) -> Stage {
+    match kept {
+        Some((old, stage)) if Arc::ptr_eq(&old.geometry, &scene.geometry) => stage,
+        other => Stage::with_precision(
+            &scene.geometry,
+            other.as_ref().map(|(_, stage)| stage),
+            shot.accuracy.tracing,
+        ),
+    }
+}
+
+/// The member that a worldline without velocity is of: others may have one of its name.
+fn astray(members: &[Member<'_>], error: &MotionError) -> Undone {
+    let fails =
+        |member: &Member<'_>| plan::celerity(member.shot, &error.worldline, member.frame).is_err();
+    let index = members.iter().position(fails).unwrap_or(0);
+    mistaken(index, motion_mistake(members[index].shot, error))
+}
+
 fn mistaken(index: usize, mistakes: Mistakes) -> Undone {
     Undone::Failed(index, RenderError::Mistakes(Box::new(mistakes)))
 }
@@ -320,16 +343,4 @@ fn mistaken(index: usize, mistakes: Mistakes) -> Undone {
 fn prepared(job: &Job) -> &Prepared {
     let prepared = job.prepared.as_ref();
     prepared.expect("a shot with frames to be rendered is prepared first")
-}
-
-/// Does once more what failed for a reason that may pass.
-fn twice(act: impl Fn() -> io::Result<()>) -> io::Result<()> {
-    const PAUSE: Duration = Duration::from_millis(200);
-    act().or_else(|error| {
-        if is_full(&error) {
-            return Err(error);
-        }
-        sleep(PAUSE);
-        act()
-    })
 }

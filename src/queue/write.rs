@@ -9,6 +9,8 @@ use std::io::{self, ErrorKind, Write};
 use std::path::{Path, PathBuf};
 use std::process;
 use std::sync::atomic::{AtomicU64, Ordering};
+use std::thread;
+use std::time::Duration;
 
 /// Writes `bytes` to `path` so that a reader sees the old file or the new one, nothing between,
 /// even after a power failure. The file gets the permissions of any newly created one.
@@ -41,6 +43,18 @@ pub(super) fn is_full(error: &io::Error) -> bool {
         error.kind(),
         ErrorKind::StorageFull | ErrorKind::QuotaExceeded | ErrorKind::FileTooLarge
     )
+}
+
+/// Does once more what failed for a reason that may pass.
+pub(super) fn twice(mut act: impl FnMut() -> io::Result<()>) -> io::Result<()> {
+    const PAUSE: Duration = Duration::from_millis(200);
+    act().or_else(|error| {
+        if is_full(&error) {
+            return Err(error);
+        }
+        thread::sleep(PAUSE);
+        act()
+    })
 }
 
 fn replace(path: &Path, bytes: &[u8]) -> io::Result<()> {
@@ -167,6 +181,32 @@ mod tests {
         write_atomically(&folder.path().join("ours"), b"x").expect("writable");
         fs::write(folder.path().join("usual"), b"x").expect("writable");
         assert_eq!(mode("ours"), mode("usual"));
+    }
+
+    #[test]
+    fn what_fails_is_done_twice_unless_there_is_no_room() {
+        for (kind, times) in [
+            (ErrorKind::TimedOut, 2),
+            (ErrorKind::StorageFull, 1),
+            (ErrorKind::FileTooLarge, 1),
+        ] {
+            let mut done = 0;
+            let failing = twice(|| {
+                done += 1;
+                Err(kind.into())
+            });
+            assert_eq!((failing.is_err(), done), (true, times), "{kind}");
+        }
+        let mut done = 0;
+        let passing = twice(|| {
+            done += 1;
+            if done == 1 {
+                Err(ErrorKind::TimedOut.into())
+            } else {
+                Ok(())
+            }
+        });
+        assert_eq!((passing.is_ok(), done), (true, 2));
     }
 
     #[test]

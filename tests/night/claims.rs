@@ -1,0 +1,43 @@
+//! Two processes at work on one folder.
+
+use super::desk::{Desk, Outcome};
+
+#[test]
+fn of_two_processes_at_once_each_frame_is_rendered_by_one() {
+    let desk = Desk::new();
+    desk.done("render passing.toml --out whole");
+    let call = "render passing.toml --out both --threads 1 --json";
+    let children = [desk.spawn(call), desk.spawn(call)];
+    let outcomes = children.map(|child| Outcome::of(child.wait_with_output().unwrap()));
+    let mut rendered = Vec::new();
+    for outcome in &outcomes {
+        assert_eq!(outcome.status, Some(0), "{}", outcome.stderr);
+        let all = [outcome.frames("rendered"), outcome.frames("kept")].concat();
+        assert_eq!(all.len(), 20, "each tells of every frame");
+        rendered.extend(outcome.frames("rendered"));
+    }
+    let mut recorded = desk.recorded("both");
+    recorded.sort_unstable();
+    rendered.sort_unstable();
+    assert_eq!(rendered, (1..=20).collect::<Vec<_>>());
+    assert_eq!(recorded, rendered);
+    assert!(desk.pictures("both") == desk.pictures("whole"));
+    assert!(!desk.has_leftovers("both"), "{:?}", desk.names("both"));
+}
+
+/// The file of a lock alone, as a killed process leaves it, claims nothing.
+#[test]
+fn locks_and_files_that_a_killed_process_left_block_nothing_and_are_swept() {
+    let desk = Desk::new();
+    std::fs::create_dir_all(desk.path("renders/passing/.passing.locks")).unwrap();
+    desk.write("renders/passing/.passing.locks/0001", "");
+    desk.write("renders/passing/.passing.locks/sequence", "");
+    desk.write("renders/passing/passing.0001.png.4711-0.tmp", "half a pic");
+    desk.done("render passing.toml --frames 1-2");
+    assert!(
+        !desk.has_leftovers("renders"),
+        "{:?}",
+        desk.names("renders")
+    );
+    assert_eq!(desk.pictures("renders").len(), 2);
+}

@@ -1,0 +1,67 @@
+//! Killed without a word.
+
+use super::desk::Desk;
+use restframe::queue::{FrameList, Reel, Request, Status};
+use std::time::{Duration, Instant};
+
+/// Numbers from 0 to 1 that look random (Knuth's multiplicative generator, MMIX).
+fn random(state: &mut u64) -> f64 {
+    *state = state
+        .wrapping_mul(6_364_136_223_846_793_005)
+        .wrapping_add(1_442_695_040_888_963_407);
+    (*state >> 11) as f64 / (1_u64 << 53) as f64
+}
+
+#[test]
+fn after_ten_kills_every_frame_is_whole_or_absent_and_the_bytes_are_those_of_one_run() {
+    let desk = Desk::new();
+    let begun = Instant::now();
+    desk.done("render passing.toml --out whole");
+    let whole = begun.elapsed();
+    let mut state = 7;
+    let mut killed = 0;
+    for _ in 0..10 {
+        let mut child = desk.spawn("render passing.toml --out torn --progress none");
+        // A tenth of the work on average, and the start of the program.
+        let moment = whole.mul_f64(0.03 + 0.2 * random(&mut state));
+        std::thread::sleep(moment.max(Duration::from_millis(5)));
+        child.kill().unwrap();
+        killed += u32::from(child.wait().unwrap().code().is_none());
+        for name in desk.pictures("torn").keys() {
+            let picture = image::open(desk.path("torn").join(name));
+            assert!(picture.is_ok(), "{name} is torn");
+        }
+        let shot = restframe::shot::load(&desk.path("passing.toml")).unwrap();
+        let request = Request {
+            out: desk.path("torn"),
+            frames: FrameList::all(),
+            scale: 1.0,
+            samples: None,
+        };
+        let reel = Reel::open(&shot, &request).unwrap();
+        for frame in 1..=20 {
+            let status = reel.status(frame, &reel.keys.frame(frame));
+            let is_sound = matches!(status, Status::Fresh | Status::Missing);
+            assert!(is_sound, "frame {frame}: {status:?}");
+        }
+    }
+    assert!(killed >= 5, "only {killed} of ten runs were killed at work");
+    desk.done("render passing.toml --out torn");
+    assert!(desk.pictures("torn") == desk.pictures("whole"));
+    assert!(!desk.has_leftovers("torn"), "{:?}", desk.names("torn"));
+}
+
+#[test]
+fn a_line_that_a_kill_tore_off_is_closed_and_the_frame_known_by_its_picture() {
+    let desk = Desk::new();
+    desk.done("render passing.toml --frames 1-3");
+    let manifest = desk.path("renders/passing/passing.manifest.jsonl");
+    let text = std::fs::read_to_string(&manifest).unwrap();
+    std::fs::write(&manifest, &text[..text.len() - 100]).unwrap();
+    let outcome = desk.done("render passing.toml --frames 1-4 --json");
+    assert_eq!(
+        (outcome.frames("kept"), outcome.frames("rendered")),
+        (vec![1, 2, 3], vec![4])
+    );
+    assert_eq!(desk.recorded("renders"), [1, 2, 4]);
+}
