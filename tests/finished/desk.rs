@@ -154,43 +154,7 @@ impl Desk {
 
     /// Records every frame as it is now, as if it had been rendered so.
     pub(crate) fn record(&self) {
-        let reel = self.reel();
-        let mut lines = String::new();
-        for frame in 1..=reel.shot().shot.frames {
-            let key = reel.keys.frame(frame);
-            let files = reel.files(frame).into_iter().filter_map(|name| {
-                let bytes = fs::read(reel.folder.join(&name)).ok()?;
-                Some(FileRecord {
-                    name,
-                    bytes: bytes.len() as u64,
-                    blake3: blake3::hash(&bytes).to_hex().to_string(),
-                })
-            });
-            let record = Record {
-                frame,
-                fingerprint: key.fingerprint,
-                parts: key.parts,
-                files: files.collect(),
-                size: reel.keys.picture().size,
-                samples: reel.keys.picture().samples,
-                effects: Vec::new(),
-                trace: key.trace,
-                shared: 1,
-                exposure: 0.0,
-                seconds: Seconds::default(),
-                warnings: Vec::new(),
-                memory_mib: None,
-                threads: 1,
-                host: "desk".to_owned(),
-                version: "0".to_owned(),
-                // Later than any other record.
-                finished: "9999-01-01T00:00:00Z".to_owned(),
-            };
-            lines += &serde_json::to_string(&record).unwrap();
-            lines.push('\n');
-        }
-        let name = reel.names.manifest(Some([9, 9]));
-        fs::write(reel.folder.join(name), lines).unwrap();
+        record(&self.reel());
     }
 
     /// Removes what rendering may have assembled.
@@ -262,4 +226,44 @@ pub(crate) fn apart(a: &[u8], b: &[u8]) -> f64 {
         .zip(b)
         .map(|(a, b)| f64::from(a.abs_diff(*b)).powi(2));
     (squares.sum::<f64>() / a.len() as f64).sqrt()
+}
+
+/// Records every frame of a reel as it is now, as if it had been rendered so.
+pub(crate) fn record(reel: &Reel) {
+    let mut lines = String::new();
+    for frame in 1..=reel.shot().shot.frames {
+        let key = reel.keys.frame(frame);
+        let files = reel.files(frame).into_iter().filter_map(|name| {
+            let bytes = fs::read(reel.folder.join(&name)).ok()?;
+            Some(FileRecord {
+                name,
+                bytes: bytes.len() as u64,
+                blake3: blake3::hash(&bytes).to_hex().to_string(),
+            })
+        });
+        let record = Record {
+            frame,
+            fingerprint: key.fingerprint,
+            parts: key.parts,
+            files: files.collect(),
+            size: reel.keys.picture().size,
+            samples: reel.keys.picture().samples,
+            effects: Vec::new(),
+            trace: key.trace,
+            shared: 1,
+            exposure: 0.0,
+            seconds: Seconds::default(),
+            warnings: Vec::new(),
+            memory_mib: None,
+            threads: 1,
+            host: "desk".to_owned(),
+            version: "0".to_owned(),
+            // Later than any other record.
+            finished: "9999-01-01T00:00:00Z".to_owned(),
+        };
+        lines += &serde_json::to_string(&record).unwrap();
+        lines.push('\n');
+    }
+    let name = reel.names.manifest(Some([9, 9]));
+    fs::write(reel.folder.join(name), lines).unwrap();
 }

@@ -1,7 +1,11 @@
 //! What `restframe verify` finds.
 
-use super::desk::{Desk, FRAMES, SMALL};
+use super::desk::{Desk, FRAMES, SMALL, record};
+use restframe::queue::{FrameList, Reel, Request};
+use restframe::{sequence, shot};
 use std::fs;
+use std::path::Path;
+use std::process::Command;
 
 const BOTH: &str = "[output]\nformats = [\"png\", \"exr\"]";
 
@@ -178,4 +182,39 @@ fn a_folder_that_is_not_there_has_no_frames_and_a_mistake_hides_no_other_shot() 
         "{}",
         told.stdout
     );
+}
+
+#[test]
+fn ramps_of_velocity_pans_and_flights_have_no_outliers() {
+    for name in ["rows", "array-pan", "lattice"] {
+        let shots = Path::new(env!("CARGO_MANIFEST_DIR")).join("shots");
+        let path = shots.join(format!("{name}.toml"));
+        let folder = tempfile::tempdir().unwrap();
+        let rendered = Command::new(env!("CARGO_BIN_EXE_restframe"))
+            .arg("render")
+            .arg(&path)
+            .args([
+                "--scale",
+                "0.1",
+                "--samples",
+                "1",
+                "--progress",
+                "none",
+                "--out",
+            ])
+            .arg(folder.path())
+            .status()
+            .unwrap();
+        assert!(rendered.success());
+        let request = Request {
+            out: folder.path().to_owned(),
+            frames: FrameList::all(),
+            scale: 0.1,
+            samples: Some(1),
+        };
+        let mut reel = Reel::open(&shot::load(&path).unwrap(), &request).unwrap();
+        record(&reel);
+        reel.refresh().unwrap();
+        assert_eq!(sequence::verify(&reel).findings, [], "{name}");
+    }
 }

@@ -59,13 +59,14 @@ fn videos_have_every_frame_in_its_colors() {
         let frames = decode(&desk, name, 64 * 64 * 3);
         assert_eq!(frames.len(), FRAMES as usize);
         for (number, frame) in (1..).zip(frames) {
-            // Away from edges, where colour has half the resolution, a constant rate factor of 18
-            // to 20 is off by a few levels; a wrong matrix or range by 10 and more.
+            // On the ground above the square 8 bits of limited range round by a level or two
+            // (measured 1 and 1.6); edges, where colour has half the resolution, and the constant
+            // rate factor add to that (measured 3.0 and 3.3). A wrong range is off by 10 and more.
             let ground: Vec<u8> = frame[..64 * 3 * 8].to_vec();
             let whole = desk.frame(number).into_raw();
             let (flat, all) = (apart(&ground, &whole[..64 * 3 * 8]), apart(&frame, &whole));
             assert!(flat < 3.0, "{name}, frame {number}: {flat}");
-            assert!(all < 12.0, "{name}, frame {number}: {all}");
+            assert!(all < 6.0, "{name}, frame {number}: {all}");
         }
         assert_eq!(desk.names(".tmp"), [""; 0]);
     }
