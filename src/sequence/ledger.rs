@@ -63,11 +63,10 @@ fn path(reel: &Reel) -> PathBuf {
 pub(super) fn is_fresh(reel: &Reel, output: Output) -> bool {
     let name = reel.names.assembled(output.suffix());
     let text = fs::read(path(reel)).unwrap_or_default();
-    let lines = text.split(|byte| *byte == b'\n');
+    let lines = text.rsplit(|byte| *byte == b'\n');
     let last = lines
         .filter_map(|line| serde_json::from_slice::<Line>(line).ok())
-        .filter(|line| line.assembled == name)
-        .last();
+        .find(|line| line.assembled == name);
     last.is_some_and(|line| {
         line.key == key(reel, output)
             && hash(&reel.folder.join(&name)).is_ok_and(|found| found == line.blake3)

@@ -127,10 +127,11 @@ impl Sheet {
         let captions = (1..=frames).map(|frame| {
             let told = facts(shot, frame).map_or_else(|e| e.to_string(), |f| f.caption());
             let step = layout.picture[0] / parts.iter().count().max(1) as u32;
-            let labels = parts.iter().filter(|part| !part.label.is_empty());
-            let labels = labels
+            let labels = parts
+                .iter()
                 .zip(0..)
-                .map(|(part, i)| (i * step, part.label.clone()));
+                .filter(|(part, _)| !part.label.is_empty());
+            let labels = labels.map(|(part, i)| (i * step, part.label.clone()));
             std::iter::once((0, told)).chain(labels).collect()
         });
         let begin = || {

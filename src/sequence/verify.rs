@@ -78,7 +78,7 @@ fn look(reel: &Reel, frame: u32) -> (Vec<Finding>, Option<Grid>) {
     }
     // Where the files themselves tell what is wrong, that is said and not that lengths differ.
     if let Status::Stale { because } = status
-        && !(same && !findings.is_empty())
+        && (!same || findings.is_empty())
     {
         let file = reel.files(frame).into_iter().next().unwrap_or_default();
         let why = format!("stale: {because}; render it again");
