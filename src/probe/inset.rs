@@ -105,3 +105,26 @@ fn band([from, to]: [f64; 2]) -> [f64; 2] {
     // 1, 2 and 5 are their own inverses but for a power of ten.
     [round_up(from / BESIDE), 1.0 / round_up(1.0 / BESIDE / to)]
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_band_is_a_decade_to_each_side_between_round_wavelengths() {
+        for (window, expected) in [
+            ([360.0, 830.0], [50.0, 5000.0]),
+            ([500.0, 500.001], [50.0, 5000.0]),
+            ([1e-6, 2e-6], [1e-7, 2e-5]),
+            ([8000.0, 14_000.0], [1000.0, 100_000.0]),
+        ] {
+            let band = band(window);
+            for (found, expected) in band.into_iter().zip(expected) {
+                assert!(
+                    (found / expected - 1.0).abs() < 1e-12,
+                    "{window:?}: {band:?}"
+                );
+            }
+        }
+    }
+}

@@ -99,6 +99,7 @@ impl Inset {
     /// `size` says where the image is too narrow or too low for it.
     pub fn place_in(&self, [width, height]: [u32; 2]) -> ([u32; 2], [u32; 2]) {
         let margin = (MARGIN * f64::from(height)).round();
+        let margin = margin.min(f64::from(width.min(height) / 2));
         let room = [width, height].map(|side| (f64::from(side) - 2.0 * margin).max(0.0));
         let own_height = (self.size * f64::from(height))
             .min(room[1])
@@ -159,4 +160,52 @@ pub enum Corner {
     LowerLeft,
     /// Lower right.
     LowerRight,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn inset(place: Corner, size: f64) -> Inset {
+        Inset {
+            pixel: InsetPixel::default(),
+            place,
+            size,
+        }
+    }
+
+    #[test]
+    fn insets_stand_within_the_image_whatever_its_size() {
+        use Corner::{LowerLeft, LowerRight, UpperLeft, UpperRight};
+        for size in [
+            [1, 1],
+            [1, 32768],
+            [32768, 1],
+            [7, 5],
+            [90, 1600],
+            [1280, 720],
+        ] {
+            for place in [UpperLeft, UpperRight, LowerLeft, LowerRight] {
+                for share in [0.1, 0.4, 1.0] {
+                    let (corner, own) = inset(place, share).place_in(size);
+                    for axis in 0..2 {
+                        assert!(corner[axis] + own[axis] <= size[axis], "{size:?} {place:?}");
+                    }
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn an_inset_is_so_much_of_the_height_and_stands_off_the_edges() {
+        let lower = inset(Corner::LowerRight, 0.4).place_in([1280, 720]);
+        // 14 pixels, 2 % of the height, from the right and the lower edge.
+        assert_eq!(lower, ([1280 - 384 - 14, 720 - 288 - 14], [384, 288]));
+        let upper = inset(Corner::UpperLeft, 0.4).place_in([1280, 720]);
+        assert_eq!(upper, ([14, 14], [384, 288]));
+        assert_eq!(
+            inset(Corner::UpperLeft, 0.4).pixel_of([1280, 721]),
+            [640, 360]
+        );
+    }
 }
