@@ -5,7 +5,7 @@ use super::drawing::{Anchor, Mark, Shape, Text};
 use super::layout::{CHARACTER, INK};
 use super::line::{simplified, visible_runs};
 use super::remarks::beside;
-use super::{Axis, Color, Panel, Remark, Series, Stroke};
+use super::{Color, Panel, Remark, Series, Stroke};
 
 const GRID: Color = [222, 222, 222];
 /// How far a drawn line may be from the curve, pixels.
