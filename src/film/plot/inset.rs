@@ -91,7 +91,7 @@ fn with_units(panel: &Panel, size: [f64; 2], base: f64, font: f64) -> Vec<Mark> 
     let mut sheet = sheet(panel, size, base, 1.65, font);
     let [width, _] = sheet.area.size;
     let unit = panel.x.measure();
-    let taken = (unit.chars().count() as f64 + 3.0) * CHARACTER * font / width;
+    let taken = (unit.chars().count() as f64 + 2.5) * CHARACTER * font / width;
     for tick in &mut sheet.x_ticks {
         if tick.place > 1.0 - taken {
             tick.label = None;

@@ -5,7 +5,7 @@ use super::drawing::{Anchor, Mark, Shape, Text};
 use super::layout::{CHARACTER, INK};
 use super::line::{simplified, visible_runs};
 use super::remarks::beside;
-use super::{Axis, Color, Panel, Remark, Series, Stroke};
+use super::{Color, Panel, Remark, Series, Stroke};
 
 const GRID: Color = [222, 222, 222];
 /// How far a drawn line may be from the curve, pixels.
@@ -125,23 +125,30 @@ impl<'a> Sheet<'a> {
         marks
     }
 
-    /// Each tint reaches to the end of the last, and the next one covers the rest of it: no seams.
+    /// Tints finer than a pixel are left to their neighbors. Each reaches over the next one, which
+    /// covers it again: no seams.
     fn tints(&self) -> Vec<Mark> {
-        let Axis { range, .. } = self.panel.x;
-        let tints = self.panel.tints.iter();
-        let inside = tints.filter(|tint| tint.range[1] > range[0] && tint.range[0] < range[1]);
-        let end = self.panel.tints.last().map_or(range[0], |t| t.range[1]);
-        let end = self.x(self.panel.x.place(end));
-        inside
-            .map(|tint| {
-                let start = self.x(self.panel.x.place(tint.range[0]));
-                let shape = Shape::Rect {
-                    corner: [start, self.area.corner[1]],
-                    size: [end - start, self.area.size[1]],
-                };
-                Mark::new("tint", tint.color, shape)
-            })
-            .collect()
+        const FINEST: f64 = 1.0;
+        let Panel { x, tints, .. } = self.panel;
+        let at = |value: f64| self.x(x.place(value));
+        let end = at(tints.last().map_or(x.range[0], |tint| tint.range[1]));
+        let mut shown: Vec<(f64, Color)> = Vec::new();
+        for tint in tints {
+            let inside = tint.range[1] > x.range[0] && tint.range[0] < x.range[1];
+            let start = at(tint.range[0]);
+            if inside && shown.last().is_none_or(|last| start >= last.0 + FINEST) {
+                shown.push((start, tint.color));
+            }
+        }
+        let mark = |(i, (start, color)): (usize, &(f64, Color))| {
+            let end = shown.get(i + 2).map_or(end, |next| next.0);
+            let shape = Shape::Rect {
+                corner: [*start, self.area.corner[1]],
+                size: [end - start, self.area.size[1]],
+            };
+            Mark::new("tint", *color, shape)
+        };
+        shown.iter().enumerate().map(mark).collect()
     }
 
     /// Lines across at labelled ticks, and short ones at the others.
