@@ -169,7 +169,8 @@ fn describe(thing: &str, w: Celerity) -> String {
     }
 }
 
-fn is_black(background: &Background) -> bool {
+/// Whether nothing is seen behind the scene in any frame.
+pub(super) fn is_black(background: &Background) -> bool {
     let never = |track: &Track<f64>| *track == Track::Constant(0.0);
     if background.stars.is_some() {
         return false;
