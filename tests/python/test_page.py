@@ -150,6 +150,13 @@ def number(tab):
     return int(told[1])
 
 
+def assert_visible(tab, selector):
+    top, bottom = tab.js(
+        f"(() => {{ const b = document.querySelector('{selector}').getBoundingClientRect(); return [b.top, b.bottom]; }})()"
+    )
+    assert 0 <= top < bottom <= 900
+
+
 def test_the_page_opens_at_frame_1_and_says_what_is_known_of_it(tab):
     assert number(tab) == 1
     text = tab.js("document.querySelector('#facts').innerText")
@@ -205,8 +212,7 @@ def test_a_thumbnail_and_a_bar_lead_to_their_frames(tab):
     tab.click("#bars a[data-frame='3'] .whole")
     assert number(tab) == 3
     # It has come into view.
-    top, bottom = tab.js("(() => { const b = document.querySelector('#scrub').getBoundingClientRect(); return [b.top, b.bottom]; })()")
-    assert 0 <= top < bottom <= 900
+    assert_visible(tab, "#scrub")
 
 
 def test_keys_step_play_and_walk_the_thumbnails(tab):
@@ -240,6 +246,10 @@ def test_keys_step_play_and_walk_the_thumbnails(tab):
 def test_a_link_to_a_frame_opens_it(browser_tab, folder):
     browser_tab.open((folder / "index.html").as_uri() + "#frame-5")
     assert number(browser_tab) == 5
+    browser_tab.until("scrollY > 0")
+    assert_visible(browser_tab, "#scrub")
+    browser_tab.js("location.hash = '#frame-8'")
+    browser_tab.until("document.querySelector('#scrub').value === '8'")
     assert browser_tab.complaints() == []
 
 
