@@ -8,8 +8,11 @@ use crate::film::plot::quantity::{number, time, unit_of_time};
 use crate::queue::Seconds;
 use maud::{Markup, html};
 
+/// The name of a phase, and its part of a frame's seconds.
+type Phase = (&'static str, fn(&Seconds) -> f64);
+
 /// The phases of a frame, the first lowermost.
-pub(super) const PHASES: [(&str, fn(&Seconds) -> f64); 5] = [
+pub(super) const PHASES: [Phase; 5] = [
     ("prepare", |s| s.prepare),
     ("trace", |s| s.trace),
     ("shade", |s| s.shade),
@@ -150,9 +153,7 @@ fn tip(view: &View<'_>) -> String {
     match view.record {
         None => format!("frame {frame}: {}", view.state.word()),
         Some(record) => {
-            let part = |(name, part): &(&str, fn(&Seconds) -> f64)| {
-                format!("{name} {}", time(part(&record.seconds)))
-            };
+            let part = |(name, part): &Phase| format!("{name} {}", time(part(&record.seconds)));
             let parts: Vec<String> = PHASES.iter().map(part).collect();
             let total = time(record.seconds.total());
             format!("frame {frame}: {total} ({})", parts.join(", "))
