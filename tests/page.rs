@@ -186,9 +186,9 @@ fn every_frame_is_there_or_accounted_for() {
     let header = header.split_once("</header>").unwrap().0;
     for words in [
         "8 frames: 1 rendered in this run, 1 kept, 2 finished, 1 stale, 1 missing, 1 broken, 1 failed.",
-        "<b>Frame 3</b> missing",
-        "<b>Frame 4</b> failed: the disk is full",
-        "<b>Frame 5</b> 7 values &lt;beyond&gt; what",
+        "<b>Frame 3:</b> missing",
+        "<b>Frame 4:</b> failed: the disk is full",
+        "<b>Frame 5:</b> 7 values &lt;beyond&gt; what",
         "&lt;the clock&gt; ran backwards",
         "restframe 0.1.0",
         "2 threads",

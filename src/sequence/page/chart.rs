@@ -8,8 +8,11 @@ use crate::film::plot::quantity::{number, time, unit_of_time};
 use crate::queue::Seconds;
 use maud::{Markup, html};
 
+/// The name of a phase, and its part of a frame's seconds.
+type Phase = (&'static str, fn(&Seconds) -> f64);
+
 /// The phases of a frame, the first lowermost.
-pub(super) const PHASES: [(&str, fn(&Seconds) -> f64); 5] = [
+pub(super) const PHASES: [Phase; 5] = [
     ("prepare", |s| s.prepare),
     ("trace", |s| s.trace),
     ("shade", |s| s.shade),
@@ -101,14 +104,16 @@ fn drawing(views: &[View<'_>], scale: &Scale) -> Markup {
             svg #bars viewBox={ "0 0 " (width) " " (HEIGHT) } preserveAspectRatio="none" role="img" aria-label="Seconds a frame, phase upon phase; the numbers are in the table" {
                 @for tick in scale.ticks().skip(1) {
                     @let y = hundredths(HEIGHT - scale.height(tick * scale.unit));
-                    line x1="0" x2=(width) y1=(y) y2=(y);
+                    line x1="0" x2=(width) y1=(y) y2=(y) { }
                 }
                 @for view in views { (bar(view, scale)) }
             }
             div.axis aria-hidden="true" {
-                @for frame in labels(views.len()) { span { (frame) } }
+                @for frame in labels(views.len()) {
+                    span style={ "left:" (hundredths((frame as f64 - 0.5) / views.len() as f64 * 100.0)) "%" } { (frame) }
+                }
             }
-            figcaption.axis { "Frames, first to last. A bar leads to its frame." }
+            figcaption { "Frames, first to last. A bar leads to its frame." }
         }
     }
 }
@@ -120,10 +125,10 @@ fn bar(view: &View<'_>, scale: &Scale) -> Markup {
             title { (tip(view)) }
             @if let Some(record) = view.record {
                 @for (i, low, high) in stacked(&record.seconds, scale) {
-                    rect class={ "p" (i + 1) } x=(x) y=(hundredths(HEIGHT - high)) width=(PITCH - GAP) height=(hundredths(high - low));
+                    rect class={ "p" (i + 1) } x=(x) y=(hundredths(HEIGHT - high)) width=(PITCH - GAP) height=(hundredths(high - low)) { }
                 }
             }
-            rect.whole x=(x) y="0" width=(PITCH) height=(HEIGHT);
+            rect.whole x=(x) y="0" width=(PITCH) height=(HEIGHT) { }
         }
     }
 }
@@ -148,9 +153,7 @@ fn tip(view: &View<'_>) -> String {
     match view.record {
         None => format!("frame {frame}: {}", view.state.word()),
         Some(record) => {
-            let part = |(name, part): &(&str, fn(&Seconds) -> f64)| {
-                format!("{name} {}", time(part(&record.seconds)))
-            };
+            let part = |(name, part): &Phase| format!("{name} {}", time(part(&record.seconds)));
             let parts: Vec<String> = PHASES.iter().map(part).collect();
             let total = time(record.seconds.total());
             format!("frame {frame}: {total} ({})", parts.join(", "))
@@ -158,15 +161,19 @@ fn tip(view: &View<'_>) -> String {
     }
 }
 
-/// Frames that are named below the drawing, evenly apart as far as that is possible.
+/// Frames that are named below the drawing: the first, and the multiples of 1, 2 or 5 times a power
+/// of ten, of which there are at most ten.
 fn labels(frames: usize) -> Vec<usize> {
-    let spaces = (1..=4).rev().find(|n| (frames - 1).is_multiple_of(*n));
-    match (frames, spaces) {
-        (1, _) | (_, None) => vec![1],
-        (_, Some(spaces)) => (0..=spaces)
-            .map(|i| 1 + i * (frames - 1) / spaces)
-            .collect(),
+    let steps = (0..).flat_map(|power| [1, 2, 5].map(|digit| digit * 10_usize.pow(power)));
+    let step = steps
+        .into_iter()
+        .find(|step| frames / step <= 10)
+        .unwrap_or(1);
+    let mut labels: Vec<usize> = (1..=frames / step).map(|i| i * step).collect();
+    if step > 1 {
+        labels.insert(0, 1);
     }
+    labels
 }
 
 fn hundredths(value: f64) -> f64 {
@@ -216,11 +223,14 @@ mod tests {
     }
 
     #[test]
-    fn labels_are_evenly_apart_and_name_the_ends() {
+    fn labels_are_round_numbers_and_few() {
         assert_eq!(labels(1), [1]);
-        assert_eq!(labels(2), [1, 2]);
-        assert_eq!(labels(49), [1, 13, 25, 37, 49]);
-        assert_eq!(labels(72), [1, 72]);
-        assert_eq!(labels(1000), [1, 334, 667, 1000]);
+        assert_eq!(labels(3), [1, 2, 3]);
+        assert_eq!(labels(49), [1, 5, 10, 15, 20, 25, 30, 35, 40, 45]);
+        assert_eq!(labels(1000).len(), 11);
+        for frames in 1..2000 {
+            let labels = labels(frames);
+            assert!(labels.len() <= 11 && labels.is_sorted() && labels[0] == 1);
+        }
     }
 }

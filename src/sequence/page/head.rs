@@ -74,7 +74,7 @@ fn warnings(run: &RunFacts, views: &[View<'_>]) -> Markup {
                 ul {
                     @for warning in &run.warnings { li { (warning) } }
                     @for (words, frames) in &frames {
-                        li { b { (named(frames)) } " " (words) }
+                        li { b { (named(frames)) ":" } " " (words) }
                     }
                 }
             }
@@ -142,14 +142,14 @@ fn seconds(run: &RunFacts, views: &[View<'_>]) -> String {
             .map(|record| record.seconds.total())
             .sum()
     };
-    let all = format!("All frames took {}", time(total(false)));
+    let all = time(total(false));
     match run.seconds {
         Some(seconds) => format!(
-            "{all}, those of this run {} of its {}. ",
+            "Rendering all frames took {all}; this run took {}, {} of it for its frames. ",
+            time(seconds),
             time(total(true)),
-            time(seconds)
         ),
-        None => format!("{all}. "),
+        None => format!("Rendering all frames took {all}. "),
     }
 }
 

@@ -113,8 +113,18 @@
     }
   });
 
+  // A link to a row of the table is one to its frame here.
+  const follow = () => {
+    const frame = location.hash.match(/^#frame-(\d+)$/)?.[1];
+    if (!frame) return;
+    go(Number(frame) - 1);
+    player.scrollIntoView();
+  };
+
   for (const link of links) link.tabIndex = -1;
   player.hidden = false;
-  const asked = Number(location.hash.match(/^#frame-(\d+)$/)?.[1] ?? 1);
-  show(asked - 1);
+  show(0);
+  follow();
+  addEventListener("load", follow);
+  addEventListener("hashchange", follow);
 })();

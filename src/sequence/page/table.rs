@@ -1,8 +1,9 @@
 //! All frames as a table: what is known of each, and what it is made of.
 
 use super::chart::PHASES;
-use super::view::{Facts, View, beside};
+use super::view::{View, beside};
 use crate::film::plot::quantity::{NOTHING, bytes, number, time};
+use crate::plan::Facts;
 use crate::queue::Record;
 use crate::relativity::Celerity;
 use maud::{Markup, html};
@@ -184,13 +185,24 @@ fn beta(w: Celerity) -> String {
     }
 }
 
-/// Four decimals, without zeros at the end; three digits and a power of ten far from 1.
+/// Up to four decimals and six digits, without zeros at the end; three digits and a power of ten far
+/// from 1.
 fn digits(value: f64) -> String {
-    if value != 0.0 && !(1e-3..1e6).contains(&value.abs()) {
-        return number(value);
-    }
-    let text = format!("{value:.4}");
-    let text = text.trim_end_matches('0').trim_end_matches('.');
+    let decimals = match value.abs() {
+        0.0 => 0,
+        1e-3..10.0 => 4,
+        10.0..100.0 => 3,
+        100.0..1e3 => 2,
+        1e3..1e4 => 1,
+        1e4..1e6 => 0,
+        _ => return number(value),
+    };
+    let text = format!("{value:.decimals$}");
+    let text = if decimals > 0 {
+        text.trim_end_matches('0').trim_end_matches('.')
+    } else {
+        &text
+    };
     text.replace('-', "−")
 }
 
@@ -200,13 +212,15 @@ mod tests {
     use glam::DVec3;
 
     #[test]
-    fn numbers_keep_four_decimals() {
+    fn numbers_keep_what_tells_frames_apart() {
         for (value, text) in [
             (0.0, "0"),
             (0.9, "0.9"),
             (-6.4, "−6.4"),
             (2.294_157, "2.2942"),
+            (3_142.857, "3142.9"),
             (13650.0, "13650"),
+            (100_000.0, "100000"),
             (1.5e-7, "1.5·10⁻⁷"),
             (f64::INFINITY, "∞"),
         ] {

@@ -2,11 +2,10 @@
 
 use super::run::{Outcome, RunFacts};
 use super::thumbnail::{Thumbnail, small};
-use crate::plan::celerity;
+use crate::plan::{Facts, facts};
 use crate::queue::{Record, Reel, Status};
-use crate::relativity::Celerity;
 use crate::sequence::read;
-use crate::shot::{Format, Shot};
+use crate::shot::Format;
 use rayon::prelude::*;
 
 /// Whether a frame is there, and why.
@@ -67,17 +66,6 @@ pub(super) struct View<'a> {
     pub(super) facts: Option<Facts>,
 }
 
-/// What moves, and how hot it is.
-#[derive(Debug, Clone, PartialEq)]
-pub(super) struct Facts {
-    /// The fastest motion relative to the camera.
-    pub(super) fastest: Celerity,
-    /// Of the hottest material, K; none where all are at 0.
-    pub(super) temperature_k: Option<f64>,
-    /// Lab time of the exposure, s; none where it stands still.
-    pub(super) time_s: Option<f64>,
-}
-
 impl<'a> View<'a> {
     /// All frames of a reel, in order.
     pub(super) fn all(reel: &'a Reel, run: &RunFacts) -> Vec<Self> {
@@ -118,7 +106,7 @@ impl<'a> View<'a> {
             full: picture.is_some().then(|| beside(&name)),
             picture,
             record: reel.records.get(&frame),
-            facts: facts(shot, frame),
+            facts: facts(shot, frame).ok(),
         }
     }
 }
@@ -137,23 +125,4 @@ fn told(outcome: Option<&Outcome>) -> State {
 /// The URL of a file beside the page, whatever its name.
 pub(super) fn beside(name: &str) -> String {
     format!("./{}", urlencoding::encode(name))
-}
-
-fn facts(shot: &Shot, frame: u32) -> Option<Facts> {
-    let frames = shot.shot.frames;
-    let camera = celerity(shot, "camera", frame).ok()?;
-    let moving = shot.worldline.keys().map(String::as_str).chain(["lab"]);
-    let relative =
-        moving.filter_map(|name| Some(celerity(shot, name, frame).ok()?.seen_from(camera)));
-    let fastest = relative.max_by(|a, b| a.lorentz_factor().total_cmp(&b.lorentz_factor()))?;
-    let temperatures = shot.material.values().filter_map(|material| {
-        let temperature = material.thermal.as_ref()?.temperature.as_ref()?;
-        Some(temperature.at(frame, frames))
-    });
-    let time = &shot.shot.time;
-    Some(Facts {
-        fastest,
-        temperature_k: temperatures.filter(|t| *t > 0.0).max_by(f64::total_cmp),
-        time_s: (!time.is_constant()).then(|| time.at(frame, frames)),
-    })
 }
