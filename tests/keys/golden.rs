@@ -77,7 +77,12 @@ const SUBJECTS: [(&str, &str); 4] = [
 ];
 
 /// Of the pixels of the subjects, in their order, at [`EPOCH`] 1.
-const PIXELS: [&str; 4] = ["", "", "", ""];
+const PIXELS: [&str; 4] = [
+    "b907fb641c494a59",
+    "5d05b962ae4d5612",
+    "d3a861b29d7040f2",
+    "e166631761aa0bd7",
+];
 
 /// The 8-bit pixels of one subject.
 fn pixels(desk: &Desk, subject: &str) -> Vec<u8> {
