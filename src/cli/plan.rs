@@ -5,15 +5,12 @@ use super::{Failed, PlanArguments, failed, mistaken, misused, print, print_json}
 use crate::plan::{self, Called};
 use crate::queue::{
     Costs, Estimate, FrameList, Reel, ReelError, Request, Status, effect_names, frame_bytes,
-    memory_bytes, refuse_shifted_numbers,
+    frame_effects, memory_bytes, refuse_shifted_numbers,
 };
 use crate::render::motion_mistake;
 use crate::shot::{self, Beaming, LARGEST_SIDE, Shot};
 use indexmap::IndexMap;
 use serde_json::{Value, json};
-
-/// Frames of one trace that are in work at once.
-const TOGETHER: usize = 16;
 
 /// One frame.
 struct Planned {
@@ -56,7 +53,8 @@ pub(super) fn run(arguments: &PlanArguments) -> Result<(), Failed> {
         ReelError::Folder { .. } => failed(&error.to_string()),
     })?;
     let planned = planned(&reel, &chosen)?;
-    let totals = totals(&reel, &planned);
+    let most = most_together(&options(&shot, &request));
+    let totals = totals(&reel, &planned, most);
     if arguments.json {
         return print_json(&as_json(&planned, &totals));
     }
@@ -108,7 +106,7 @@ fn planned(reel: &Reel, frames: &[u32]) -> Result<Vec<Planned>, Failed> {
         *entry.or_insert(0) += usize::from(status != Status::Fresh);
         planned.push(Planned {
             frame,
-            estimate: costs.estimate(&effect_names(&called), reel.keys.picture()),
+            estimate: costs.estimate(&frame_effects(shot, frame), reel.keys.picture()),
             called,
             status,
             trace,
@@ -122,14 +120,15 @@ fn planned(reel: &Reel, frames: &[u32]) -> Result<Vec<Planned>, Failed> {
     Ok(planned)
 }
 
-fn totals(reel: &Reel, planned: &[Planned]) -> Totals {
+/// Sums, where at most so many frames of one trace are in work at once.
+fn totals(reel: &Reel, planned: &[Planned], most: usize) -> Totals {
     let count = |is: fn(&Status) -> bool| planned.iter().filter(|p| is(&p.status)).count();
     let fresh = count(|status| *status == Status::Fresh);
     let mut sharing: IndexMap<usize, usize> = IndexMap::new();
     for frame in planned {
         *sharing.entry(frame.trace).or_default() += 1;
     }
-    let together = sharing.values().copied().max().unwrap_or(1).min(TOGETHER);
+    let together = sharing.values().copied().max().unwrap_or(1).min(most);
     Totals {
         traces: sharing.len(),
         fresh,

@@ -4,7 +4,7 @@
 use super::job::Job;
 use super::reel::Glance;
 use crate::plan::FrameKey;
-use crate::render::Options;
+use crate::render::{Options, film_bytes};
 
 /// Most memory for the films of a batch, bytes. A film of 1280 x 720 is 11 MiB: forty and more
 /// share a trace, which leaves a fortieth of it to each; of more, little would be gained, and all
@@ -38,16 +38,15 @@ pub(super) fn batches(tasks: Vec<Task>, jobs: &[Job]) -> Vec<Vec<Task>> {
     }
     let mut batches = Vec::new();
     for tasks in groups.into_values() {
-        let most = FILMS / film_bytes(&jobs[tasks[0].job].options).max(1);
-        let most = usize::try_from(most).unwrap_or(usize::MAX).max(1);
+        let most = most_together(&jobs[tasks[0].job].options);
         batches.extend(tasks.chunks(most).map(<[Task]>::to_vec));
     }
     batches
 }
 
-/// Bytes of a film and its layers.
-fn film_bytes(options: &Options) -> u64 {
-    const VALUE: u64 = size_of::<f32>() as u64;
-    let values = 3 + options.layers.len() as u64;
-    u64::from(options.width) * u64::from(options.height) * values * VALUE
+/// How many frames that share a trace are in work at once: at least one, and so many that their
+/// films take 512 MiB.
+pub fn most_together(options: &Options) -> usize {
+    let most = FILMS / film_bytes(options).max(1);
+    usize::try_from(most).unwrap_or(usize::MAX).max(1)
 }

@@ -2,8 +2,10 @@
 
 use super::batch::Task;
 use super::claim::sweep;
+use super::cost::Costs;
 use super::deed::Deed;
 use super::ledger::Ledger;
+use super::record::frame_effects;
 use super::reel::{Glance, Reel, ReelError, Status};
 use super::shard::Shard;
 use super::shots::{Exposing, Prepared, Request, check_memory, options};
@@ -13,7 +15,7 @@ use crate::render::Options;
 use crate::scene::Scene;
 use crate::shot::{Mistakes, Shot};
 use crate::trace::Stage;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashMap};
 use std::path::PathBuf;
 
 /// Which frames of those chosen are rendered.
@@ -153,7 +155,7 @@ impl Job {
 
     /// The frames to be rendered, as number `job` of the night.
     pub(super) fn tasks(&self, job: usize, force: Force) -> Vec<Task> {
-        let task = |chosen: &Chosen| Task {
+        let task = |(chosen, work): (&Chosen, f64)| Task {
             job,
             frame: chosen.frame,
             key: chosen.key.clone(),
@@ -163,9 +165,10 @@ impl Job {
                 Status::Stale { because } => Some(format!("stale because {because}")),
             },
             glance: chosen.glance.clone(),
-            work: self.work(),
+            work,
         };
-        self.wanted(force).map(task).collect()
+        let wanted = self.wanted(force).zip(self.costs(force));
+        wanted.map(task).collect()
     }
 
     /// The frames that are there already.
@@ -196,15 +199,18 @@ impl Job {
         names.map(|name| self.reel.folder.join(name)).collect()
     }
 
-    /// What a frame is expected to cost: its rays.
-    fn work(&self) -> f64 {
-        let Options {
-            width,
-            height,
-            samples,
-            ..
-        } = self.options;
-        f64::from(width) * f64::from(height) * f64::from(samples)
+    /// Seconds that each frame to be rendered is expected to take, of a shared trace its part.
+    fn costs(&self, force: Force) -> impl Iterator<Item = f64> {
+        let costs = Costs::new(&self.reel);
+        let mut sharing: HashMap<&str, f64> = HashMap::new();
+        for chosen in self.wanted(force) {
+            *sharing.entry(&chosen.key.trace).or_default() += 1.0;
+        }
+        self.wanted(force).map(move |chosen| {
+            let effects = frame_effects(self.reel.shot(), chosen.frame);
+            let estimate = costs.estimate(&effects, self.reel.keys.picture());
+            estimate.trace / sharing[chosen.key.trace.as_str()] + estimate.shade
+        })
     }
 
     /// Whether nothing is left to do for it.

@@ -34,6 +34,7 @@ mod signals;
 mod work;
 mod write;
 
+pub use batch::most_together;
 pub use claim::Claim;
 pub use cost::{Costs, Estimate, effect_names, frame_bytes, memory_bytes};
 pub use deed::Deed;
@@ -44,6 +45,7 @@ pub use names::{Names, SEQUENCE};
 pub use night::Night;
 pub use picture::{Pictures, Taken, pictures};
 pub use progress::{Mode, Progress, Results};
+pub use record::frame_effects;
 pub use reel::{Glance, Reel, ReelError, Status};
 pub use shard::{Shard, ShardError};
 pub use shifts::refuse_shifted_numbers;

@@ -1,6 +1,7 @@
 //! The record of a frame that has just been finished.
 
 use super::batch::Task;
+use super::cost::effect_names;
 use super::job::Job;
 use super::machine::{host, now, peak_memory_mib};
 use super::manifest::{Record, Seconds};
@@ -35,7 +36,7 @@ pub(super) fn blank(job: &Job, task: &Task) -> Record {
         files: Vec::new(),
         size: [options.width, options.height],
         samples: options.samples,
-        effects: effects(job.reel.shot(), task.frame),
+        effects: frame_effects(job.reel.shot(), task.frame),
         trace: task.key.trace.clone(),
         shared: 1,
         exposure: stops(job, task.frame),
@@ -50,25 +51,30 @@ pub(super) fn blank(job: &Job, task: &Task) -> Record {
 }
 
 /// Names of the effects that are simulated in a frame, in all of it or in a splice.
-fn effects(shot: &Shot, frame: u32) -> Vec<String> {
+pub fn frame_effects(shot: &Shot, frame: u32) -> Vec<String> {
     let splices = shot
         .splice
         .iter()
         .map(|splice| spliced(&shot.effects, splice));
-    let parts: Vec<Called> = std::iter::once(shot.effects)
-        .chain(splices)
-        .filter_map(|effects| plan::called(shot, frame, &effects).ok())
-        .collect();
-    let any = |is: fn(&Called) -> bool| parts.iter().any(is);
-    let table = [
-        ("geometry", any(|called| called.geometry)),
-        ("doppler", any(|called| called.doppler)),
-        ("beaming", any(|called| called.beaming != Beaming::Off)),
-        ("thermal", any(|called| called.thermal)),
-        ("shadows", any(|called| called.shadows)),
-        ("mirror", any(|called| called.mirror)),
-        ("refraction", any(|called| called.refraction)),
-    ];
-    let named = table.into_iter().filter(|(_, is)| *is);
-    named.map(|(name, _)| name.to_owned()).collect()
+    let mut found: Vec<String> = Vec::new();
+    for effects in std::iter::once(shot.effects).chain(splices) {
+        // A frame without a velocity is refused by whoever renders it.
+        let called = plan::called(shot, frame, &effects);
+        found.extend(called.iter().flat_map(effect_names));
+    }
+    let mut named = effect_names(&ALL);
+    named.retain(|name| found.contains(name));
+    named
 }
+
+/// Every effect, for the order of their names.
+const ALL: Called = Called {
+    geometry: true,
+    doppler: true,
+    beaming: Beaming::Full,
+    thermal: true,
+    shadows: true,
+    mirror: true,
+    refraction: true,
+    because: Vec::new(),
+};
