@@ -5,7 +5,7 @@ use super::{Failed, PlanArguments, failed, mistaken, misused, print, print_json}
 use crate::plan::{self, Called};
 use crate::queue::{
     Costs, Estimate, FrameList, Reel, ReelError, Request, Status, effect_names, frame_bytes,
-    frame_effects, memory_bytes, refuse_shifted_numbers,
+    frame_effects, memory_bytes, most_together, options, refuse_shifted_numbers,
 };
 use crate::render::motion_mistake;
 use crate::shot::{self, Beaming, LARGEST_SIDE, Shot};
