@@ -289,7 +289,7 @@ fn mistakes_end_with_status_2() {
     }
 }
 
-/// 0.1 s here as tests are built, with the start of the program; the bound is for machines under
+/// It took 73 ms as tests are built, with the start of the program; the bound is for machines under
 /// load.
 #[test]
 fn a_thousand_frames_are_planned_at_once() {

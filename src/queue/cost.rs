@@ -13,25 +13,24 @@ use std::collections::HashMap;
 use std::fs;
 use std::path::Path;
 
-/// Seconds a ray of frames that nothing is known of: measured on two cores, release build, over the
-/// gallery's shots, where it is between 1e-7 (a starry sky) and 3e-6 (a mirror ball among lamps). A
-/// debug build takes three times as long.
+/// Seconds a ray of frames that nothing is known of: an order of magnitude and no measurement. Whoever
+/// is told of it is told that it is a guess.
 const GUESSED: Rate = Rate {
     trace: 5e-7,
     shade: 3e-7,
 };
 
-/// Bytes a pixel of a PNG, of noise-free pictures; and what its metadata takes.
+/// Bytes a pixel of a PNG, estimated; and what its metadata takes.
 const PNG_BYTES: [u64; 2] = [1, 4096];
 
-/// Bytes a value of an EXR; compression takes away about half.
+/// Bytes a value of an EXR, estimated: compression takes away about half.
 const EXR_BYTES: u64 = 2;
 
-/// Memory of a mesh and its trees over the bytes of its file, which is text or packed floats:
-/// measured from 2 (OBJ) to 5 (glb with 16-bit indices).
+/// Memory of a mesh and its trees over the bytes of its file, estimated on the high side: a triangle
+/// takes 72 bytes, its corners and box about as much, and some 30 bytes of an indexed glb.
 const MESH_FACTOR: u64 = 5;
 
-/// Memory of the program itself, threads and tables: 30 MiB.
+/// Memory of the program itself, threads and tables, estimated: 30 MiB.
 const PROGRAM_BYTES: u64 = 30 << 20;
 
 /// Seconds a ray, by what the ray is for.
