@@ -110,7 +110,7 @@ impl Desk {
         }
     }
 
-    /// All files below a folder but manifests, which tell times, with their bytes.
+    /// All files below a folder but manifests and pages, which tell times, with their bytes.
     fn files(&self, folder: &str) -> Vec<(String, Vec<u8>)> {
         fn walk(folder: &Path, root: &Path, files: &mut Vec<(String, Vec<u8>)>) {
             for entry in fs::read_dir(folder).into_iter().flatten() {
@@ -119,7 +119,7 @@ impl Desk {
                     walk(&path, root, files);
                 } else if path
                     .extension()
-                    .is_none_or(|extension| extension != "jsonl")
+                    .is_none_or(|extension| extension != "jsonl" && extension != "html")
                 {
                     let name = path
                         .strip_prefix(root)

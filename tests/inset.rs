@@ -310,8 +310,7 @@ fn an_inset_too_small_to_be_read_is_left_out_with_a_warning() {
     let (plain, _) = desk.rendered("plain", "", "--scale 0.2");
     let (drawn, said) = desk.rendered("drawn", "[[inset]]\npixel = [480, 360]\n", "--scale 0.2");
     assert!(changed(&plain, &drawn).is_empty());
-    let warning =
-        "warning: frame 1: the inset of pixel 480 360 is left out: it would be 57 pixels high";
+    let warning = "warning: drawn.toml: frame 1: the inset of pixel 480 360 is left out: it would be 57 pixels high";
     assert!(said.contains(warning), "{said}");
 }
 

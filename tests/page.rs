@@ -6,6 +6,7 @@
 )]
 
 use indexmap::IndexMap;
+use restframe::film::{self, Metadata};
 use restframe::queue::{FileRecord, FrameList, Record, Reel, Request, Seconds};
 use restframe::sequence::page::{Outcome, RunFacts, write};
 use restframe::shot::parse;
@@ -63,15 +64,17 @@ fn reel(folder: &Path, file: &str, title: &str, frames: u32) -> Reel {
 }
 
 /// A picture unlike those of other frames, and hard to make small: noise on a hue.
-fn png(frame: u32) -> Vec<u8> {
+fn png(reel: &Reel, frame: u32) -> Vec<u8> {
     let mut state = frame;
     let image = image::RgbImage::from_fn(160, 90, |x, _| {
         state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
         image::Rgb([(state >> 24) as u8, (frame * 20) as u8, x as u8])
     });
-    let mut bytes = std::io::Cursor::new(Vec::new());
-    image.write_to(&mut bytes, image::ImageFormat::Png).unwrap();
-    bytes.into_inner()
+    let metadata = Metadata {
+        fingerprint: Some(reel.keys.frame(frame).fingerprint),
+        ..Metadata::default()
+    };
+    film::png::encode(160, 90, image.as_raw(), &metadata).unwrap()
 }
 
 /// The record of a finished frame.
@@ -118,7 +121,7 @@ fn finish(reel: &mut Reel, frames: &[u32]) {
     fs::create_dir_all(&reel.folder).unwrap();
     let mut lines = String::new();
     for &frame in frames {
-        let bytes = png(frame);
+        let bytes = png(reel, frame);
         fs::write(reel.folder.join(reel.names.frame(frame, "png")), &bytes).unwrap();
         let record = record(reel, frame, bytes.len() as u64);
         lines += &(serde_json::to_string(&record).unwrap() + "\n");
@@ -159,10 +162,14 @@ fn every_frame_is_there_or_accounted_for() {
     let mut reel = reel(&folder, "states.toml", "All kinds", 8);
     finish(&mut reel, &[1, 2, 5, 6, 7, 8]);
     let file = |frame| reel.folder.join(reel.names.frame(frame, "png"));
-    // Of the length that the manifest has, but no picture.
-    let length = fs::metadata(file(6)).unwrap().len();
-    fs::write(file(6), vec![7; length as usize]).unwrap();
-    fs::write(file(7), "short").unwrap();
+    // Of the length that the manifest has, and with a sound header, but no picture.
+    let mut bytes = fs::read(file(6)).unwrap();
+    let half = bytes.len() / 2;
+    bytes[half..].fill(7);
+    fs::write(file(6), bytes).unwrap();
+    let short = fs::read(file(7)).unwrap();
+    fs::write(file(7), &short[..short.len() / 2]).unwrap();
+    let short = format!("stale: states.0007.png has {} bytes", short.len() / 2);
     let run = RunFacts {
         outcomes: outcomes(),
         seconds: Some(12.0),
@@ -176,7 +183,7 @@ fn every_frame_is_there_or_accounted_for() {
         (4, "failed: the disk is full"),
         (5, "finished"),
         (6, "broken: "),
-        (7, "stale: states.0007.png has 5 bytes"),
+        (7, &short),
         (8, "finished"),
     ] {
         let row = row(&page, frame);

@@ -53,8 +53,12 @@ impl Finisher<'_> {
         let run = run_facts(job);
         let asked = job.reel.shot().sequence.page;
         if asked && !(made.is_empty() && is_still_right(&job.reel, &run)) {
-            let page = page::write(&job.reel, &run).map_err(|error| told(&error.to_string()))?;
-            self.progress.assembled(&page);
+            match page::write(&job.reel, &run) {
+                Ok(page) => self.progress.assembled(&page),
+                // Why has been told.
+                Err(_) if job.is_halted() => {}
+                Err(error) => return Err(told(&error.to_string())),
+            }
         }
         done
     }
@@ -95,15 +99,12 @@ fn run_facts(job: &Job) -> RunFacts {
             because: because.clone(),
         },
     };
-    let rendered = job.deeds.values().map(Deed::seconds).sum::<f64>();
+    let outcomes = job.deeds.iter();
     RunFacts {
-        outcomes: job
-            .deeds
-            .iter()
+        outcomes: outcomes
             .map(|(frame, deed)| (*frame, outcome(deed)))
             .collect(),
-        seconds: (rendered > 0.0).then_some(rendered),
-        warnings: Vec::new(),
+        ..RunFacts::default()
     }
 }
 
@@ -111,7 +112,7 @@ fn run_facts(job: &Job) -> RunFacts {
 /// again would take as long as to read all pictures.
 fn is_still_right(reel: &Reel, run: &RunFacts) -> bool {
     let kept = run.outcomes.values().all(|o| *o == Outcome::Kept);
-    let Some(page) = written(&reel.folder.join("index.html")) else {
+    let Some(page) = written(&reel.folder.join(page::PAGE)) else {
         return false;
     };
     let manifests = fs::read_dir(&reel.folder).into_iter().flatten().flatten();

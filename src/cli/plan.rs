@@ -1,6 +1,7 @@
 //! `restframe plan`: what each frame calls for and why, which frames share a trace, and what they
 //! will take.
 
+use super::render::check_scale;
 use super::{Failed, PlanArguments, failed, mistaken, misused, print, print_json};
 use crate::plan::{self, Called};
 use crate::queue::{
@@ -8,7 +9,7 @@ use crate::queue::{
     frame_effects, memory_bytes, most_together, options, refuse_shifted_numbers,
 };
 use crate::render::motion_mistake;
-use crate::shot::{self, Beaming, LARGEST_SIDE, Shot};
+use crate::shot::{self, Beaming, Shot};
 use indexmap::IndexMap;
 use serde_json::{Value, json};
 
@@ -75,13 +76,7 @@ pub(super) fn run(arguments: &PlanArguments) -> Result<(), Failed> {
 /// The frames that are asked for.
 fn chosen(shot: &Shot, request: &Request) -> Result<Vec<u32>, Failed> {
     let (path, frames) = (shot.path.display(), shot.shot.frames);
-    let [width, height] = shot.image.size.map(|side| f64::from(side) * request.scale);
-    if width.max(height).round() > f64::from(LARGEST_SIDE) {
-        return Err(misused(&format!(
-            "--scale {} makes {width:.0} x {height:.0} pixels of {path}; a side has at most {LARGEST_SIDE}",
-            request.scale
-        )));
-    }
+    check_scale(shot, request)?;
     let chosen = request.frames.resolve(frames).frames;
     if chosen.is_empty() {
         let message = format!("{path} has frames 1 to {frames}; none was chosen");

@@ -213,6 +213,11 @@ impl Job {
         })
     }
 
+    /// Whether this run can do no more for the shot: its folder is full, or cannot be written to.
+    pub fn is_halted(&self) -> bool {
+        self.halted.is_some()
+    }
+
     /// Whether nothing is left to do for it.
     pub(super) fn is_settled(&self) -> bool {
         self.halted.is_some() || self.deeds.len() == self.chosen.len()

@@ -3,6 +3,7 @@
 
 use super::finding::{Finding, Kind};
 use super::output::{OUTPUTS, Output};
+use super::page::PAGE;
 use crate::queue::Reel;
 use std::fs;
 
@@ -29,6 +30,9 @@ pub(super) fn orphans(reel: &Reel) -> Vec<Finding> {
 /// Why a file is none of the shot's; none if it is, or if it is none of ours.
 fn why(reel: &Reel, file: &str) -> Option<String> {
     let names = &reel.names;
+    if file == PAGE && !reel.shot().sequence.page {
+        return Some("[sequence] asks for no page".to_owned());
+    }
     let ours = file.strip_prefix(&names.stem)?;
     if ours.starts_with('.') && ours.ends_with(".tmp") {
         return Some("a run that was killed left it, or one is at work; remove it".to_owned());

@@ -23,6 +23,8 @@ const GAP: u32 = 8;
 const GROUND: u8 = 34;
 /// Least width of a cell, pixels, that the shot can ask for.
 const NARROWEST: u32 = 16;
+/// Width of a cell that its caption needs, pixels, however small its frame is.
+const CAPTION: u32 = 200;
 
 /// Where everything stands on a sheet, pixels.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -44,6 +46,7 @@ impl Layout {
         let columns = columns.min(frames).max(1);
         let [across, down] = shown.map(f64::from);
         let reduced = width.min(shown[0]);
+        let width = width.min(reduced.max(CAPTION));
         let height = (down * f64::from(reduced) / across).round().max(1.0) as u32;
         let letters = (f64::from(width) / 22.0).clamp(7.0, 14.0);
         let line = (letters * 1.5).ceil() as u32;
@@ -116,11 +119,11 @@ impl Sheet {
         let lines = if parts.iter().count() > 1 { 2 } else { 1 };
         let shown = parts.shown_size();
         let layout = Layout::fitting(frames, asked.columns, asked.width, shown, lines)?;
-        if layout.width != asked.width {
+        if layout.picture[0] < asked.width.min(shown[0]) {
             notes(&format!(
                 "{}: frames are {} pixels wide, not {}, since a sheet has at most {LARGEST_SIDE} a side",
                 reel.names.assembled("sheet.png"),
-                layout.width,
+                layout.picture[0],
                 asked.width
             ));
         }
@@ -245,14 +248,7 @@ impl Band {
         let Some(painted) = raster::paint(&svg, width, height) else {
             return;
         };
-        let pixels = self.rgb8.as_chunks_mut::<3>().0;
-        for (pixel, over) in pixels.iter_mut().zip(painted.rgba8.as_chunks::<4>().0) {
-            let opacity = u32::from(over[3]);
-            for (under, over) in pixel.iter_mut().zip(over) {
-                let mixed = u32::from(*over) * opacity + u32::from(*under) * (255 - opacity);
-                *under = ((mixed + 127) / 255) as u8;
-            }
-        }
+        painted.lay_over(&mut self.rgb8, width, [0, 0]);
     }
 }
 

@@ -28,11 +28,7 @@ fn an_apng_has_every_frame_to_the_bit() {
     let desk = Desk::small("apng = true");
     let told = desk.assemble();
     assert_eq!(told.status, 0, "{}", told.stderr);
-    assert!(
-        told.stdout.trim_end().ends_with("passing.apng"),
-        "{}",
-        told.stdout
-    );
+    assert!(told.stdout.contains("passing.apng\n"), "{}", told.stdout);
     let frames = read_apng(&desk);
     assert_eq!(frames.len(), FRAMES as usize);
     for (number, (bytes, delay)) in (1..).zip(frames) {
@@ -119,8 +115,8 @@ fn a_second_pass_makes_what_is_not_there_or_of_other_frames() {
     assert_eq!(finished(), 1);
     fs::write(desk.file("passing.apng"), "another").unwrap();
     assert_eq!(finished(), 1);
-    // Always all of it when asked for by name.
-    assert_eq!(desk.assemble().stdout.lines().count(), 2);
+    // Always all of it when asked for by name, and the page.
+    assert_eq!(desk.assemble().stdout.lines().count(), 3);
     // Others may still be at work on what is missing.
     fs::remove_file(desk.file("passing.0007.png")).unwrap();
     fs::remove_file(desk.file("passing.gif")).unwrap();

@@ -60,11 +60,12 @@ impl Desk {
         let desk = Self(tempfile::tempdir().unwrap());
         let square = "v -0.5 -0.5 0\nv 0.5 -0.5 0\nv 0.5 0.5 0\nv -0.5 0.5 0\nf 1 2 3 4\n";
         fs::write(desk.path("square.obj"), square).unwrap();
-        desk.write_shot(head, tail);
+        // Nothing is assembled yet.
+        let (before, _) = tail.split_once("[sequence]").unwrap_or((tail, ""));
+        desk.write_shot(head, &format!("{before}\n[sequence]\npage = false\n"));
         let rendered = desk.call(&["render", "passing.toml", "--progress", "none"]);
         assert_eq!(rendered.status, 0, "{}", rendered.stderr);
-        desk.record();
-        desk.forget();
+        desk.write_shot(head, tail);
         desk
     }
 
@@ -157,22 +158,6 @@ impl Desk {
         record(&self.reel());
     }
 
-    /// Removes what rendering may have assembled.
-    fn forget(&self) {
-        for suffix in [
-            ".gif",
-            ".apng",
-            ".mp4",
-            ".sheet.png",
-            ".sequence.jsonl",
-            ".html",
-        ] {
-            for name in self.names(suffix) {
-                fs::remove_file(self.file(&name)).unwrap();
-            }
-        }
-    }
-
     /// The 8-bit values of a frame's PNG.
     pub(crate) fn frame(&self, frame: u32) -> image::RgbImage {
         open(&self.file(&format!("passing.{frame:04}.png")))
@@ -186,7 +171,7 @@ impl Desk {
             linear,
             saturated: 0,
         };
-        let (layers, metadata) = (Layers::default(), Metadata::default());
+        let (layers, metadata) = (Layers::default(), self.metadata(frame));
         let [width, height] = size;
         let bytes =
             film::exr::encode(width, height, &developed, Depth::Float, &layers, &metadata).unwrap();
@@ -196,7 +181,18 @@ impl Desk {
     /// Writes a PNG in place of a frame's.
     pub(crate) fn put_png(&self, frame: u32, picture: &image::RgbImage) {
         let path = self.file(&format!("passing.{frame:04}.png"));
-        picture.save(path).unwrap();
+        let (width, height) = picture.dimensions();
+        let metadata = self.metadata(frame);
+        let bytes = film::png::encode(width, height, picture.as_raw(), &metadata).unwrap();
+        fs::write(path, bytes).unwrap();
+    }
+
+    /// What a picture says of itself that is of this frame, as the shot stands.
+    fn metadata(&self, frame: u32) -> Metadata {
+        Metadata {
+            fingerprint: Some(self.reel().keys.frame(frame).fingerprint),
+            ..Metadata::default()
+        }
     }
 
     /// Cuts a file off after a share of its bytes.

@@ -79,6 +79,8 @@ fn an_outlier_is_a_warning_and_an_orphan_none() {
 #[test]
 fn a_shot_that_asks_for_nothing_is_told_what_it_could() {
     let told = Desk::small("").assemble();
+    assert_eq!(told.stdout, "renders/passing/index.html\n");
+    let told = Desk::small("page = false").assemble();
     assert_eq!((told.status, told.stdout.as_str()), (0, ""));
     assert!(
         told.stderr.contains("nothing to assemble; ask for sheet"),

@@ -48,12 +48,13 @@ fn frames_below_the_width_asked_for_stand_on_the_sheet_as_they_are() {
     let desk = Desk::small("sheet = { columns = 100 }");
     assert_eq!(desk.assemble().status, 0);
     let sheet = open(&desk.file("passing.sheet.png"));
-    assert_eq!(sheet.width(), 10 * (320 + 8) + 8);
-    let title = sheet.height() - 64 - 21 - 8;
+    // As wide as a caption needs, in letters of 200/22 pixels.
+    assert_eq!(sheet.width(), 10 * (200 + 8) + 8);
+    let title = sheet.height() - 64 - 14 - 8;
     for frame in 1..=10 {
         let whole = desk.frame(frame);
         for (x, y, pixel) in whole.enumerate_pixels() {
-            let found = sheet.get_pixel(8 + (frame - 1) * 328 + x, title + y);
+            let found = sheet.get_pixel(8 + (frame - 1) * 208 + x, title + y);
             assert_eq!(found, pixel, "{frame}: {x}, {y}");
         }
     }

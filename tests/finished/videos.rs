@@ -117,11 +117,7 @@ fn without_ffmpeg_the_rest_is_made_and_its_package_is_named() {
         "{}",
         told.stderr
     );
-    assert!(
-        told.stdout.trim_end().ends_with("passing.gif"),
-        "{}",
-        told.stdout
-    );
+    assert!(told.stdout.contains("passing.gif\n"), "{}", told.stdout);
     assert_eq!(desk.names(".mp4"), [""; 0]);
     assert_eq!(desk.names(".tmp"), [""; 0]);
 }

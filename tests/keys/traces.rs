@@ -2,6 +2,7 @@
 //! changes none.
 
 use super::desk::Desk;
+use rayon::prelude::*;
 use restframe::render::{View, rows, spliced};
 use restframe::scene::{Library, Scene};
 use restframe::shot::{Effects, Shot, parse};
@@ -272,8 +273,13 @@ fn frames_of_one_trace_key_have_the_same_shade_trees_whatever_is_changed() {
     let base = traced(&desk, RICH).unwrap();
     let mut by_key = HashMap::from([(base.0.clone(), (String::from("nothing"), base.1.clone()))]);
     let (mut sound, mut apart, mut together) = (0, 0, 0);
-    for (change, text) in variants(&desk) {
-        let Some((key, trees)) = traced(&desk, &text) else {
+    let variants = variants(&desk);
+    let answers: Vec<_> = variants
+        .par_iter()
+        .map(|(_, text)| traced(&desk, text))
+        .collect();
+    for ((change, _), answer) in variants.into_iter().zip(answers) {
+        let Some((key, trees)) = answer else {
             continue;
         };
         sound += 1;

@@ -45,7 +45,7 @@ fn progress_as_json_is_on_standard_error_alone() {
         .iter()
         .map(|event| event["event"].as_str().unwrap().to_owned())
         .collect();
-    assert_eq!(kinds, ["start", "frame", "frame", "summary"]);
+    assert_eq!(kinds, ["start", "frame", "frame", "assembled", "summary"]);
 }
 
 #[test]

@@ -22,13 +22,16 @@ use std::io;
 use std::path::PathBuf;
 use view::View;
 
+/// The page's file name.
+pub const PAGE: &str = "index.html";
+
 /// Writes the page of a reel whose records have been read since the last frame was finished, and
 /// returns where it is.
 ///
 /// # Errors
 /// When it cannot be written. What is wrong with frames stands on the page.
 pub fn write(reel: &Reel, run: &RunFacts) -> io::Result<PathBuf> {
-    let path = reel.folder.join("index.html");
+    let path = reel.folder.join(PAGE);
     write_atomically(&path, text(reel, run).as_bytes())?;
     Ok(path)
 }

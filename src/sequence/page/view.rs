@@ -78,13 +78,12 @@ impl<'a> View<'a> {
 
     fn one(reel: &'a Reel, run: &RunFacts, frame: u32) -> Self {
         let shot = reel.shot();
-        let shown = shot.output.formats.contains(&Format::Png);
-        let still = shown.then(|| read(reel, frame));
+        let still = read(reel, frame);
         let found = match reel.status(frame, &reel.keys.frame(frame)) {
             Status::Missing => State::Missing,
             Status::Stale { because } => State::Stale { because },
             Status::Fresh => match &still {
-                Some(Err(error)) => State::Broken {
+                Err(error) => State::Broken {
                     because: error.why.clone(),
                 },
                 _ => told(run.outcomes.get(&frame)),
@@ -96,14 +95,13 @@ impl<'a> View<'a> {
             },
             _ => found,
         };
-        let picture = still
-            .and_then(Result::ok)
-            .and_then(|still| small(still, shot.shot.frames));
+        let picture = still.ok().and_then(|still| small(still, shot.shot.frames));
         let name = reel.names.frame(frame, "png");
+        let browsers_show_it = shot.output.formats.contains(&Format::Png);
         Self {
             frame,
             state,
-            full: picture.is_some().then(|| beside(&name)),
+            full: (picture.is_some() && browsers_show_it).then(|| beside(&name)),
             picture,
             record: reel.records.get(&frame),
             facts: facts(shot, frame).ok(),
