@@ -2,7 +2,7 @@
 
 use super::motion::{MotionError, celerity};
 use crate::relativity::Celerity;
-use crate::shot::{Background, Beaming, Effects, Material, Shot, SpectrumValue, Switch, Track};
+use crate::shot::{Beaming, Effects, Material, Shot, SpectrumValue, Switch, Track};
 
 /// The effects that are simulated in one image. What is false, or off, costs nothing.
 #[derive(Debug, Clone, PartialEq)]
@@ -125,7 +125,7 @@ pub fn called(shot: &Shot, frame: u32, switches: &Effects) -> Result<Called, Mot
 /// The first two things that move relative to each other.
 fn relative_motion(shot: &Shot, frame: u32) -> Result<Option<String>, MotionError> {
     let camera = celerity(shot, "camera", frame)?;
-    let sky = (!is_black(&shot.background)).then(|| {
+    let sky = (!is_black(shot, frame)).then(|| {
         (
             "the background".to_owned(),
             shot.background.worldline.as_deref().unwrap_or("camera"),
@@ -170,17 +170,19 @@ fn describe(thing: &str, w: Celerity) -> String {
 }
 
 /// Whether nothing is seen behind the scene in any frame.
-pub(super) fn is_black(background: &Background) -> bool {
-    let never = |track: &Track<f64>| *track == Track::Constant(0.0);
+/// Whether the background is surely black in this frame.
+pub(super) fn is_black(shot: &Shot, frame: u32) -> bool {
+    let zero = |track: &Track<f64>| track.at(frame, shot.shot.frames) == 0.0;
+    let background = &shot.background;
     if background.stars.is_some() {
         return false;
     }
-    if background.scale.as_ref().is_some_and(never) {
+    if background.scale.as_ref().is_some_and(zero) {
         return true;
     }
     match &background.spectrum {
         None => background.image.is_none(),
-        Some(SpectrumValue::Number(track)) => never(track),
+        Some(SpectrumValue::Number(track)) => zero(track),
         Some(_) => false,
     }
 }

@@ -3,7 +3,7 @@
 use super::effects::is_black;
 use super::motion::{MotionError, celerity};
 use crate::relativity::Celerity;
-use crate::shot::Shot;
+use crate::shot::{Shot, Switch};
 
 /// From this speed on its digits are all nines, and the Lorentz factor is told in its place.
 const NEARLY_LIGHT: f64 = 0.999;
@@ -15,7 +15,7 @@ pub struct Facts {
     pub frame: u32,
     /// The fastest motion of a model, light or background relative to the camera.
     pub fastest: Celerity,
-    /// Temperature of the hottest material, K; none where all are at 0.
+    /// Temperature of the hottest material, K; none where all are at 0 or thermal light is off.
     pub temperature_k: Option<f64>,
     /// Lab time of the exposure, s; none in a shot whose time stands still.
     pub time_s: Option<f64>,
@@ -29,13 +29,15 @@ pub fn facts(shot: &Shot, frame: u32) -> Result<Facts, MotionError> {
     let frames = shot.shot.frames;
     let camera = celerity(shot, "camera", frame)?;
     let mut fastest = Celerity::REST;
-    for name in moving_things(shot) {
+    for name in moving_things(shot, frame) {
         let relative = celerity(shot, name, frame)?.seen_from(camera);
         if relative.magnitude() > fastest.magnitude() {
             fastest = relative;
         }
     }
-    let temperatures = shot.material.values().filter_map(|material| {
+    let shown = shot.effects.thermal == Switch::Auto;
+    let materials = shot.material.values().filter(|_| shown);
+    let temperatures = materials.filter_map(|material| {
         let temperature = material.thermal.as_ref()?.temperature.as_ref()?;
         Some(temperature.at(frame, frames))
     });
@@ -49,10 +51,10 @@ pub fn facts(shot: &Shot, frame: u32) -> Result<Facts, MotionError> {
 }
 
 /// Names of the worldlines that something to see rides on.
-fn moving_things(shot: &Shot) -> impl Iterator<Item = &str> {
+fn moving_things(shot: &Shot, frame: u32) -> impl Iterator<Item = &str> {
     let models = shot.model.iter().map(|model| &model.worldline);
     let lights = shot.light.iter().map(|light| &light.worldline);
-    let sky = (!is_black(&shot.background)).then_some(&shot.background.worldline);
+    let sky = (!is_black(shot, frame)).then_some(&shot.background.worldline);
     models
         .chain(lights)
         .map(|name| name.as_deref().unwrap_or("lab"))

@@ -3,7 +3,7 @@
 use crate::shot::{FileError, MODEL_BYTES, Mistakes, ModelFiles, Opened, Shot};
 use blake3::{Hash, Hasher};
 use indexmap::{IndexMap, IndexSet};
-use serde::Deserialize;
+use serde_json::Value;
 use std::fs::File;
 use std::io::{self, BufRead, Read};
 use std::path::{Path, PathBuf};
@@ -149,18 +149,6 @@ fn obj(file: &mut impl BufRead) -> io::Result<(Hash, IndexSet<String>)> {
     Ok((hasher.finalize(), libraries))
 }
 
-/// The JSON of a glTF file, as far as it names files.
-#[derive(Default, Deserialize)]
-struct Named {
-    #[serde(default)]
-    buffers: Vec<Buffer>,
-}
-
-#[derive(Deserialize)]
-struct Buffer {
-    uri: Option<String>,
-}
-
 /// The hash of a glTF or glb file, and the URIs of its buffers; images are not read.
 fn gltf(file: &mut impl Read) -> io::Result<(Hash, IndexSet<String>)> {
     /// Header of a glb file and of its first chunk, the JSON.
@@ -180,8 +168,11 @@ fn gltf(file: &mut impl Read) -> io::Result<(Hash, IndexSet<String>)> {
     file.take(length).read_to_end(&mut json)?;
     hasher.update(&json);
     let text = json.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(&json);
-    let named: Named = serde_json::from_slice(text).unwrap_or_default();
-    let uris = named.buffers.into_iter().filter_map(|buffer| buffer.uri);
-    let uris = uris.filter(|uri| !uri.starts_with("data:")).collect();
+    // What is no JSON is the loader's to refuse.
+    let named: Value = serde_json::from_slice(text).unwrap_or_default();
+    let buffers = named["buffers"].as_array().into_iter().flatten();
+    let uris = buffers.filter_map(|buffer| buffer["uri"].as_str());
+    let uris = uris.filter(|uri| !uri.starts_with("data:"));
+    let uris = uris.map(str::to_owned).collect();
     Ok((rest(hasher, file)?, uris))
 }

@@ -25,8 +25,12 @@ pub struct Picture {
 pub struct FrameKey {
     /// BLAKE3 of `parts`, hexadecimal.
     pub fingerprint: String,
-    /// Every value that reaches the frame's pixels, by its key in the shot: a short one as it stands
-    /// in JSON, a long one by its hash; the files by their paths and hashes.
+    /// Every value that may reach the frame's pixels, by its key in the shot: a short one as it stands
+    /// in JSON, a long one by its hash; the files by their paths and hashes. That something reaches
+    /// them is judged by the shot's text alone: materials and worldlines count though no model may
+    /// use them, since model files may name the former and the latter bound what is tabulated; of
+    /// EXR files also their depth and layers. A default that is written out counts as another value
+    /// where only the renderer knows it.
     pub parts: IndexMap<String, String>,
     /// Frames in which this is equal have the same shade trees.
     pub trace: String,
@@ -77,7 +81,7 @@ impl Keys {
         let parts = made_of(&still, &self.digests, pixels);
         FrameKey {
             fingerprint: parts::hash(&parts).to_hex().to_string(),
-            trace: trace_key(&self.shot, &still, &self.digests, self.picture),
+            trace: trace_key(&still, &self.digests, self.picture),
             parts,
         }
     }

@@ -47,6 +47,10 @@ pub(super) fn parts(still: &Shot, pixels: Pixels<'_>) -> Parts {
             .as_object_mut()
             .map(|light| light.shift_remove("name"));
     }
+    let used = still.used_spectra();
+    if let Some(Value::Object(spectra)) = sections.get_mut("spectrum") {
+        spectra.retain(|name, _| used.contains(name.as_str()));
+    }
     if let Some(image) = sections.get_mut("image") {
         image["aspect"] = json!(aspect(still.image.size));
     }

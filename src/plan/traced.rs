@@ -12,10 +12,11 @@ use super::files::Digests;
 use super::key::Picture;
 use super::parts::aspect;
 use crate::shot::{
-    Background, Format, Light, Material, Model, Refraction, Shot, SpectrumTable, SpectrumValue,
-    Track,
+    Accuracy, Background, Clock, Effects, Format, Light, Material, Model, Refraction, Shot,
+    SpectrumTable, SpectrumValue, Splice, SpliceEffects, Track,
 };
 use serde_json::{Value, json};
+use std::borrow::Cow;
 use std::collections::BTreeMap;
 
 /// Lamps of fewer candela or lux may be lost in rounding.
@@ -27,12 +28,10 @@ const LARGEST: f64 = 1e200;
 /// Below this a black body's curve, 1 at some wavelength, is beyond all numbers at others, K.
 const COLDEST: f64 = 100.0;
 
-/// What the shade trees of `still`, a frame of `shot`, follow from, hashed: 16 hexadecimal digits.
-pub(super) fn trace_key(shot: &Shot, still: &Shot, digests: &Digests, picture: Picture) -> String {
+/// What the shade trees of `still`, a shot of one frame, follow from, hashed: 16 hexadecimal digits.
+pub(super) fn trace_key(still: &Shot, digests: &Digests, picture: Picture) -> String {
     let traced = Traced { still, digests };
-    let models: Vec<Value> = (0..still.model.len())
-        .map(|i| traced.model(shot, i))
-        .collect();
+    let models: Vec<Value> = still.model.iter().map(|m| traced.model(m)).collect();
     let materials: BTreeMap<&String, Value> = still
         .material
         .iter()
@@ -43,42 +42,62 @@ pub(super) fn trace_key(shot: &Shot, still: &Shot, digests: &Digests, picture: P
         .iter()
         .filter_map(|light| traced.lamp(light))
         .collect();
-    let splices: Vec<Value> = still
-        .splice
-        .iter()
-        .map(|s| {
-            json!([
-                s.rows,
-                s.effects.geometry,
-                s.effects.shadows,
-                s.effects.bounces
-            ])
-        })
-        .collect();
+    let splices: Vec<Value> = still.splice.iter().map(splice).collect();
     let exr = still.output.formats.contains(&Format::Exr);
-    let effects = &still.effects;
+    // By all their keys: one that is new does not compile until it is placed.
+    let Effects {
+        geometry,
+        doppler: _,
+        beaming: _,
+        thermal: _,
+        shadows,
+        bounces,
+    } = still.effects;
+    let Accuracy {
+        spectra: _,
+        wavelengths: _,
+        line_spacing: _,
+        tracing,
+        cutoff,
+    } = still.accuracy;
+    let Clock {
+        title: _,
+        frames: _,
+        fps: _,
+        time,
+        light_speed,
+    } = &still.shot;
     let traced = json!([
         [picture.size, [picture.samples], aspect(still.image.size)],
         [
             json!(still.image.filter),
             json!(exr.then_some(&still.output.layers))
         ],
-        [json!(still.shot.time), json!(still.shot.light_speed)],
+        [json!(time), json!(light_speed)],
         still.camera,
         still.worldline.iter().collect::<Vec<_>>(),
         models,
         materials,
         lamps,
         traced.sky(&still.background),
-        [
-            json!(effects.geometry),
-            json!(effects.shadows),
-            json!(effects.bounces)
-        ],
+        [json!(geometry), json!(shadows), json!(bounces)],
         splices,
-        [json!(still.accuracy.tracing), json!(still.accuracy.cutoff)],
+        [json!(tracing), json!(cutoff)],
     ]);
     blake3::hash(traced.to_string().as_bytes()).to_hex()[..16].to_owned()
+}
+
+fn splice(splice: &Splice) -> Value {
+    let Splice { rows, effects } = splice;
+    let SpliceEffects {
+        geometry,
+        doppler: _,
+        beaming: _,
+        thermal: _,
+        shadows,
+        bounces,
+    } = effects;
+    json!([rows, geometry, shadows, bounces])
 }
 
 /// The one value of a track of a shot of one frame.
@@ -92,36 +111,44 @@ struct Traced<'a> {
 }
 
 impl Traced<'_> {
-    fn model(&self, shot: &Shot, index: usize) -> Value {
+    fn model(&self, model: &Model) -> Value {
+        let Model {
+            name: _,
+            file,
+            worldline: _,
+            translate,
+            rotate,
+            scale,
+            array,
+            material,
+            materials,
+        } = model;
         let models = &self.still.model;
-        let model = &models[index];
         // Materials of one file are the same ones, of two files with one content they are not.
-        let same_file = |other: &&Model| other.file == model.file;
-        let first = models.iter().position(|other| same_file(&other));
-        let name = |model: &Model| {
-            let stem = || model.file.file_stem().unwrap_or_default().to_string_lossy();
-            model.name.clone().unwrap_or_else(|| stem().into_owned())
-        };
-        let worldline = |model: &Model| self.worldline(&model.worldline, "lab").to_owned();
-        // Where two have one name, bodies are ordered by all that their author says of them.
-        let own = (worldline(model), name(model));
-        let namesakes = models
-            .iter()
-            .filter(|m| (worldline(m), name(m)) == own)
-            .count();
-        let tie = (namesakes > 1).then(|| format!("{:?}", shot.model[index]));
+        let first = models.iter().position(|other| other.file == *file);
+        let own = self.called(model);
+        // Where two have one name, bodies are ordered by all that is said of them.
+        let namesakes = models.iter().filter(|other| self.called(other) == own);
+        let tie = (namesakes.count() > 1).then(|| format!("{model:?}"));
         json!([
             own,
             first,
-            self.digests.of(&model.file),
+            self.digests.of(file),
             tie,
-            model.translate,
-            model.rotate,
-            model.scale,
-            model.array,
-            model.material,
-            model.materials,
+            translate,
+            rotate,
+            scale,
+            array,
+            material,
+            materials,
         ])
+    }
+
+    /// A model's worldline and name, by which bodies are ordered.
+    fn called<'a>(&'a self, model: &'a Model) -> (&'a str, Cow<'a, str>) {
+        let stem = || model.file.file_stem().unwrap_or_default().to_string_lossy();
+        let name = model.name.as_deref().map_or_else(stem, Cow::Borrowed);
+        (self.worldline(&model.worldline, "lab"), name)
     }
 
     fn material(&self, material: &Material) -> Value {
@@ -177,24 +204,32 @@ impl Traced<'_> {
 
     /// A lamp, if it shines.
     fn lamp(&self, light: &Light) -> Option<Value> {
-        let amount = light
-            .scale
-            .as_ref()
-            .or(light.intensity.as_ref())
-            .map_or(0.0, now);
+        let Light {
+            kind,
+            name: _,
+            worldline,
+            position,
+            direction,
+            inner,
+            outer,
+            intensity,
+            scale,
+            spectrum,
+        } = light;
+        let amount = scale.as_ref().or(intensity.as_ref()).map_or(0.0, now);
         if amount <= 0.0 {
             return None;
         }
-        let surely = light.scale.is_some()
-            || amount >= FAINTEST && light.spectrum.as_ref().is_none_or(|s| self.is_tame(s));
-        let perhaps = (!surely).then(|| json!([amount, self.content(&light.spectrum)]));
+        let surely = scale.is_some()
+            || amount >= FAINTEST && spectrum.as_ref().is_none_or(|s| self.is_tame(s));
+        let perhaps = (!surely).then(|| json!([amount, self.content(spectrum)]));
         Some(json!([
-            light.kind,
-            self.worldline(&light.worldline, "lab"),
-            light.position,
-            light.direction,
-            light.inner,
-            light.outer,
+            kind,
+            self.worldline(worldline, "lab"),
+            position,
+            direction,
+            inner,
+            outer,
             perhaps,
         ]))
     }

@@ -4,8 +4,10 @@
 //! move. Wavelengths run over a decade to each side of the sensor's window (an eye's: 50 to 5000
 //! nm, the range of the paper's curves), on a logarithmic axis, on which a Doppler shift moves a
 //! curve and leaves its shape alone. Spectral radiance is linear, so that the sum is seen to be one;
-//! its axis ends at the radiance of an even light that the frame's exposure shows as white or, where
-//! the curves rise higher, at a higher round value. Both ends are rounded to 1, 2 or 5.
+//! its axis ends at the radiance of an even light whose luminance (of bands, whose mean) the frame's
+//! exposure brings to 1 or, where the curves rise higher, at a higher round value. Both ends are
+//! rounded to 1, 2 or 5. Curves are read as their author wrote them, however `accuracy.spectra` holds
+//! them for the picture.
 
 use super::look;
 use super::plot::{SPACING, SURFACE, THERMAL_LIGHT, UNIT, curve, digits, peak, visible};

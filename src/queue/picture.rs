@@ -112,17 +112,19 @@ fn metadata(shot: &Shot, frame: u32, scene: &Scene, taken: Taken<'_>) -> Metadat
         lorentz_factor: Some(camera.lorentz_factor()),
         time_s: Some(shot.shot.time.at(frame, shot.shot.frames)),
         worldlines: scene.worldline_names.clone(),
-        shot: Some(still(shot, frame, taken.exposure_stops)),
+        shot: Some(still(shot, frame, taken)),
         fingerprint: taken.fingerprint.map(str::to_owned),
         ..Metadata::default()
     }
 }
 
-/// The shot that this frame alone is rendered again from: what moves stands still, and what was
-/// metered is written down.
-fn still(shot: &Shot, frame: u32, exposure_stops: f64) -> String {
+/// The shot that this frame alone is rendered again from, beside the original: what moves stands
+/// still, what was metered or asked for is written down. The size is the shot's own, as insets name
+/// its pixels: a picture of another size is rendered by the `--scale` that gives it.
+fn still(shot: &Shot, frame: u32, taken: Taken<'_>) -> String {
     let mut still = shot.at(frame);
-    still.sensor.exposure = Exposure::Stops(Track::Constant(exposure_stops));
+    still.sensor.exposure = Exposure::Stops(Track::Constant(taken.exposure_stops));
+    still.image.samples = taken.samples;
     still.sequence = Sequence::default();
     still.to_toml()
 }

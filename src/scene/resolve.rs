@@ -120,7 +120,7 @@ impl Resolver<'_> {
         }
         let arrangement = Arrangement {
             placing,
-            order: model_order(shot, &of_models, &names),
+            order: model_order(&shot.at(self.frame), &of_models, &names),
             worldlines: of_models,
             materials: own_materials,
             glass: materials.iter().map(|m| m.refraction.is_some()).collect(),
@@ -285,8 +285,9 @@ fn worldline_index(
     names.get_index_of(name).unwrap_or(0)
 }
 
-/// The models in an order that does not depend on that of the shot: by their worldlines' names,
-/// their own, and, where two share the name of one file, by all else that is said of them.
+/// The models in an order that does not depend on that of the shot, of one frame: by their
+/// worldlines' names, their own, and, where two share the name of one file, by all else that is said
+/// of them.
 fn model_order(shot: &Shot, worldlines: &[u32], names: &IndexSet<String>) -> Vec<usize> {
     let mut order: Vec<usize> = (0..shot.model.len()).collect();
     order.sort_by_cached_key(|&i| {

@@ -1,6 +1,7 @@
 //! The files that a shot names.
 
 use super::{Shot, SpectrumTable, SpectrumValue, Stars};
+use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 
 impl Shot {
@@ -11,8 +12,18 @@ impl Shot {
             .map_or_else(|| file.to_owned(), |folder| folder.join(file))
     }
 
-    /// Every spectrum table, with its key; a file that one names is read from here.
-    pub fn spectrum_tables(&self) -> Vec<(String, &SpectrumTable)> {
+    /// The names of spectra that materials, lamps and the background use.
+    pub fn used_spectra(&self) -> HashSet<&str> {
+        let values = self.spectrum_values().into_iter();
+        let named = values.filter_map(|(_, value)| match value {
+            SpectrumValue::Name(name) => Some(name.as_str()),
+            SpectrumValue::Number(_) | SpectrumValue::Table(_) => None,
+        });
+        named.collect()
+    }
+
+    /// Every place where a spectrum is used, by its key.
+    fn spectrum_values(&self) -> Vec<(String, &SpectrumValue)> {
         let mut values: Vec<(String, &Option<SpectrumValue>)> = Vec::new();
         for (name, material) in &self.material {
             let terms = material.spectra();
@@ -22,9 +33,18 @@ impl Shot {
             values.push((format!("light[{i}].spectrum"), &light.spectrum));
         }
         values.push(("background.spectrum".to_owned(), &self.background.spectrum));
-        let inline = values.into_iter().filter_map(|(key, value)| match value {
-            Some(SpectrumValue::Table(table)) => Some((key, &**table)),
-            _ => None,
+        let given = values.into_iter();
+        given
+            .filter_map(|(key, value)| Some((key, value.as_ref()?)))
+            .collect()
+    }
+
+    /// Every spectrum table, with its key; a file that one names is read from here.
+    pub fn spectrum_tables(&self) -> Vec<(String, &SpectrumTable)> {
+        let values = self.spectrum_values().into_iter();
+        let inline = values.filter_map(|(key, value)| match value {
+            SpectrumValue::Table(table) => Some((key, &**table)),
+            SpectrumValue::Number(_) | SpectrumValue::Name(_) => None,
         });
         let named = self
             .spectrum

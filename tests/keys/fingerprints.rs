@@ -86,6 +86,10 @@ fn what_no_pixel_shows_changes_nothing() {
         ("name = \"lamp\"", "name = \"lantern\""),
         ("time = 0.5", "light_speed = 1\ntime = 0.5"),
         (
+            "[spectrum.paint]",
+            "[spectrum.spare]\nconstant = 0.3\n[spectrum.paint]",
+        ),
+        (
             "[output]",
             "[output]\nlayers = [\"doppler\"]\ndepth = \"half\"",
         ),

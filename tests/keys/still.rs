@@ -3,6 +3,7 @@
 
 use super::desk::Desk;
 use assert_cmd::Command;
+use restframe::plan;
 use restframe::shot::{Places, Sequence, Shot, parse, schema};
 use serde_json::Value;
 use std::collections::BTreeSet;
@@ -165,12 +166,13 @@ fn pixels(png: &[u8]) -> Vec<u8> {
     pixels
 }
 
-fn render(desk: &Desk, shot: &str, frames: &str) {
+fn render(desk: &Desk, shot: &str, options: &[&str]) {
     let mut command = Command::cargo_bin("restframe").unwrap();
-    let call = ["render", shot, "--frames", frames, "--progress", "none"];
+    let call = ["render", shot, "--progress", "none"];
     let done = command
         .current_dir(desk.0.path())
         .args(call)
+        .args(options)
         .output()
         .unwrap();
     assert!(
@@ -211,12 +213,13 @@ pan = { from = -3, to = 3 }
 gif = true
 "#,
     );
-    render(&desk, "pass.toml", "4");
+    // Samples asked for in the call are written down too.
+    render(&desk, "pass.toml", &["--frames", "4", "--samples", "3"]);
     let first = std::fs::read(desk.path("renders/pass/pass.0004.png")).unwrap();
     let text = text_of(&first, "restframe:shot");
     assert!(!text.contains("gif") && !text.contains("auto"), "{text}");
     desk.put("again.toml", text);
-    render(&desk, "again.toml", "1");
+    render(&desk, "again.toml", &[]);
     let second = std::fs::read(desk.path("renders/again/again.0001.png")).unwrap();
     assert!(
         pixels(&first).iter().any(|value| *value > 0),
@@ -228,4 +231,94 @@ gif = true
         text_of(&first, "restframe:shot"),
         text_of(&second, "restframe:shot")
     );
+}
+
+/// A sky that ramps from black while it moves; and two bodies of one name in one place, of which the
+/// one that comes first in the order of bodies is seen.
+const HOW_IT_IS_WRITTEN: [&str; 2] = [
+    r#"
+[shot]
+frames = 3
+[worldline.fast]
+velocity = [0.5, 0, 0]
+[background]
+worldline = "fast"
+spectrum = { from = 0, to = 0.01 }
+[[model]]
+file = "house.obj"
+[[light]]
+kind = "sun"
+direction = [0, -0.3, -1]
+intensity = 300
+"#,
+    r#"
+[shot]
+frames = 3
+[[model]]
+file = "house.obj"
+material = "red"
+translate = { from = [0, 0, 0], to = [0, 0, 1] }
+[[model]]
+file = "house.obj"
+material = "blue"
+translate = [0, 0, 0]
+[material.red.emission]
+spectrum = { rgb = [0.9, 0.1, 0.1] }
+[material.blue.emission]
+spectrum = { rgb = [0.1, 0.1, 0.9] }
+"#,
+];
+
+const CAMERA: &str = r#"
+[image]
+size = [24, 18]
+samples = 2
+[camera]
+position = [0, 0, 3]
+[sensor]
+exposure = 0
+[output]
+formats = ["png", "exr"]
+"#;
+
+#[test]
+fn pixels_do_not_tell_whether_a_value_was_written_as_a_ramp_or_as_a_number() {
+    for text in HOW_IT_IS_WRITTEN {
+        let desk = Desk::new();
+        desk.put("ramp.toml", format!("{text}{CAMERA}"));
+        render(&desk, "ramp.toml", &["--frames", "1"]);
+        let file = |name: &str| std::fs::read(desk.path(name)).unwrap();
+        let ramp = file("renders/ramp/ramp.0001.png");
+        assert!(
+            pixels(&ramp).iter().any(|value| *value > 0),
+            "black: {text}"
+        );
+        desk.put("number.toml", text_of(&ramp, "restframe:shot"));
+        render(&desk, "number.toml", &[]);
+        let number = file("renders/number/number.0001.png");
+        assert_eq!(pixels(&ramp), pixels(&number), "{text}");
+        let fingerprint = |png: &[u8]| text_of(png, "restframe:fingerprint");
+        assert_eq!(fingerprint(&ramp), fingerprint(&number), "{text}");
+        assert!(
+            file("renders/ramp/ramp.0001.exr") == file("renders/number/number.0001.exr"),
+            "{text}"
+        );
+    }
+}
+
+#[test]
+fn what_a_frame_calls_for_is_what_the_shot_of_that_frame_alone_does() {
+    let root = Path::new("shots/any.toml");
+    let ramps = HOW_IT_IS_WRITTEN.map(|text| (root.to_owned(), format!("{text}{CAMERA}")));
+    for (path, text) in shots().into_iter().chain(ramps) {
+        let Ok(shot) = parse(&text.replace("house.obj", "../assets/sphere.obj"), &path) else {
+            continue;
+        };
+        for frame in 1..=shot.shot.frames {
+            let still = shot.at(frame);
+            let alone = plan::called(&still, 1, &still.effects);
+            let called = plan::called(&shot, frame, &shot.effects);
+            assert_eq!(called, alone, "{}: {frame}", path.display());
+        }
+    }
 }
