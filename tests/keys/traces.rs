@@ -242,6 +242,9 @@ fn variants(desk: &Desk) -> Vec<(String, String)> {
     let mut all = Vec::new();
     places(&base, "", &mut all);
     let mut variants = Vec::new();
+    // Without a size the image would be of the default one: a minute's work to show what the size
+    // of `others` shows.
+    all.retain(|place| !matches!(place.as_str(), "/image" | "/image/size"));
     for place in &all {
         let value = base.pointer(place).unwrap();
         for other in others(value) {
