@@ -4,7 +4,7 @@
 //! A cell is the frame, reduced in linear light to the width that the shot gives and never
 //! enlarged, and its caption below.
 
-use super::draft::Draft;
+use super::draft::{Draft, Pen};
 use super::parts::Parts;
 use super::reduce::reduce;
 use super::still::Still;
@@ -13,8 +13,7 @@ use crate::film::raster;
 use crate::plan::facts;
 use crate::queue::Reel;
 use crate::shot::LARGEST_SIDE;
-use std::fs::File;
-use std::io::{BufWriter, Write};
+use std::io::Write;
 use std::path::PathBuf;
 
 /// Between and around cells, pixels.
@@ -98,7 +97,7 @@ impl Layout {
 /// A sheet in the making.
 pub(super) struct Sheet {
     draft: Draft,
-    writer: png::StreamWriter<'static, BufWriter<File>>,
+    writer: png::StreamWriter<'static, Pen>,
     layout: Layout,
     captions: Vec<Vec<(u32, String)>>,
     /// Reduced frames of the row that fills.
@@ -139,7 +138,7 @@ impl Sheet {
         });
         let begin = || {
             let [width, height] = layout.size;
-            let mut encoder = png::Encoder::new(draft.writer()?, width, height);
+            let mut encoder = png::Encoder::new(draft.pen(), width, height);
             encoder.set_color(png::ColorType::Rgb);
             encoder.set_depth(png::BitDepth::Eight);
             encoder.set_source_srgb(png::SrgbRenderingIntent::RelativeColorimetric);
