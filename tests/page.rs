@@ -7,7 +7,7 @@
 
 use indexmap::IndexMap;
 use restframe::film::{self, Metadata};
-use restframe::queue::{FileRecord, FrameList, Record, Reel, Request, Seconds};
+use restframe::queue::{FileRecord, FrameList, Record, Reel, Request, Seconds, Stop};
 use restframe::sequence::page::{Outcome, RunFacts, write};
 use restframe::shot::parse;
 use std::collections::BTreeMap;
@@ -131,7 +131,7 @@ fn finish(reel: &mut Reel, frames: &[u32]) {
 }
 
 fn page(reel: &Reel, run: &RunFacts) -> String {
-    let path = write(reel, run).unwrap();
+    let path = write(reel, run, &Stop::default()).unwrap().unwrap();
     assert_eq!(path, reel.folder.join("index.html"));
     fs::read_to_string(path).unwrap()
 }
@@ -228,7 +228,12 @@ fn what_moves_stands_in_the_row_of_its_frame() {
     assert!(row(&page, 12).contains("href=\"./facts.0012.png\""));
     assert_eq!(
         page,
-        fs::read_to_string(write(&reel, &RunFacts::default()).unwrap()).unwrap()
+        fs::read_to_string(
+            write(&reel, &RunFacts::default(), &Stop::default())
+                .unwrap()
+                .unwrap()
+        )
+        .unwrap()
     );
 }
 
@@ -295,7 +300,7 @@ fn a_page_of_a_thousand_noisy_frames_has_less_than_15_megabytes() {
 fn a_shot_without_a_folder_has_no_page_and_says_so() {
     let folder = folder("absent");
     let reel = reel(&folder, "absent.toml", "Absent", 1);
-    let error = write(&reel, &RunFacts::default()).unwrap_err();
+    let error = write(&reel, &RunFacts::default(), &Stop::default()).unwrap_err();
     assert!(
         error.to_string().contains("must be an existing folder"),
         "{error}"

@@ -66,10 +66,7 @@ fn render(arguments: &RenderArguments, progress: &Progress, stop: &Stop) -> Resu
         stop: stop.asked(),
         force,
     };
-    let finisher = Finisher {
-        progress,
-        stop: stop.asked(),
-    };
+    let finisher = Finisher { progress, stop };
     let mut finished = Ok(());
     night.render(&mut jobs, &mut |job| {
         if let Err(failed) = finisher.finish(job) {

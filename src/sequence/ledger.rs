@@ -62,24 +62,33 @@ fn path(reel: &Reel) -> PathBuf {
 /// Whether the file is there as it was assembled of just these frames.
 pub(super) fn is_fresh(reel: &Reel, output: Output) -> bool {
     let name = reel.names.assembled(output.suffix());
+    holds(reel, &name, || key(reel, output))
+}
+
+/// Remembers that the file was assembled of the reel's frames.
+pub(super) fn remember_output(reel: &Reel, output: Output) -> io::Result<()> {
+    let name = reel.names.assembled(output.suffix());
+    remember(reel, &name, key(reel, output))
+}
+
+/// Whether a file of this name is there as it was made of what has this key.
+pub(super) fn holds(reel: &Reel, name: &str, key: impl Fn() -> String) -> bool {
     let text = fs::read(path(reel)).unwrap_or_default();
     let lines = text.rsplit(|byte| *byte == b'\n');
     let last = lines
         .filter_map(|line| serde_json::from_slice::<Line>(line).ok())
         .find(|line| line.assembled == name);
     last.is_some_and(|line| {
-        line.key == key(reel, output)
-            && hash(&reel.folder.join(&name)).is_ok_and(|found| found == line.blake3)
+        hash(&reel.folder.join(name)).is_ok_and(|found| found == line.blake3) && line.key == key()
     })
 }
 
-/// Remembers that the file was assembled of the reel's frames.
-pub(super) fn remember(reel: &Reel, output: Output) -> io::Result<()> {
-    let name = reel.names.assembled(output.suffix());
+/// Remembers of what a file of this name was made.
+pub(super) fn remember(reel: &Reel, name: &str, key: String) -> io::Result<()> {
     let line = Line {
-        key: key(reel, output),
-        blake3: hash(&reel.folder.join(&name))?,
-        assembled: name,
+        key,
+        blake3: hash(&reel.folder.join(name))?,
+        assembled: name.to_owned(),
     };
     let text = format!("\n{}\n", serde_json::to_string(&line)?);
     let mut file = OpenOptions::new()

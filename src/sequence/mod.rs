@@ -17,6 +17,7 @@ mod output;
 pub mod page;
 mod palette;
 mod parts;
+mod program;
 mod reduce;
 mod sheet;
 mod still;
@@ -24,7 +25,7 @@ mod target;
 mod verify;
 mod video;
 
-pub use assemble::{AssembleError, assemble, finish};
+pub use assemble::{AssembleError, assemble, finish, is_finished};
 pub use finding::{Finding, Kind, Report};
 pub use still::{Still, StillError, read};
 pub use verify::verify;
