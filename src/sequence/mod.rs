@@ -6,7 +6,6 @@
 
 mod apng;
 mod assemble;
-mod decode;
 mod draft;
 mod finding;
 mod gif;

@@ -4,11 +4,11 @@
 //! Files are decoded on all threads, one a thread at a time, so that memory is bounded by as many
 //! pictures as there are threads.
 
-use super::decode::{Fault, read_bytes};
 use super::finding::{Finding, Kind, Report};
 use super::orphans::orphans;
 use super::outlier::{Differences, Grid, Outlier};
 use super::still::{decode_as, shown_extension};
+use crate::film::decode::{Fault, read_bytes};
 use crate::plan::FrameKey;
 use crate::queue::{Record, Reel, Status, Stop};
 use rayon::prelude::*;
