@@ -22,8 +22,9 @@ pub(super) fn run(arguments: &FinishedArguments) -> Result<(), Failed> {
         }
         let reel = match open(path, arguments) {
             Ok(reel) => reel,
-            Err(failed) => {
-                worst = worse(worst, failed);
+            Err(unopened) => {
+                reports.push(unopened.as_json(path));
+                worst = worse(worst, unopened.failed);
                 continue;
             }
         };
@@ -33,8 +34,9 @@ pub(super) fn run(arguments: &FinishedArguments) -> Result<(), Failed> {
             sweep(&reel.folder, &reel.names);
             match claim(&reel) {
                 Ok(_claim) => make(&reel, &stop),
-                Err(failed) => {
-                    worst = worse(worst, failed);
+                Err(unclaimed) => {
+                    reports.push(unclaimed.as_json(path));
+                    worst = worse(worst, unclaimed.failed);
                     continue;
                 }
             }
@@ -51,7 +53,11 @@ pub(super) fn run(arguments: &FinishedArguments) -> Result<(), Failed> {
             worst = worse(worst, failed(&format!("{shot}: {failure}")));
         }
         if arguments.json {
-            reports.push(json!({"shot": path, "made": made, "failures": failures}));
+            reports.push(json!({
+                "shot": path.to_string_lossy(),
+                "made": made.iter().map(|file| file.to_string_lossy()).collect::<Vec<_>>(),
+                "failures": failures,
+            }));
         } else {
             for file in &made {
                 print(&file.display().to_string())?;

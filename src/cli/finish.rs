@@ -1,6 +1,7 @@
 //! The end of a shot's rendering: what is assembled of its frames, and the page about them.
 
-use super::{FAILURE, Failed, failed};
+use super::verify::Unopened;
+use super::{FAILURE, Failed};
 use crate::queue::{Claim, Deed, Job, Progress, Reel, SEQUENCE, Stop};
 use crate::sequence::page::{self, Outcome, RunFacts};
 use crate::sequence::{AssembleError, finish, is_finished};
@@ -84,14 +85,14 @@ impl Finisher<'_> {
 }
 
 /// The claim of whoever assembles by hand.
-pub(super) fn claim(reel: &Reel) -> Result<Claim, Failed> {
+pub(super) fn claim(reel: &Reel) -> Result<Claim, Unopened> {
     match Claim::take(&reel.folder, &reel.names, SEQUENCE) {
         Ok(Some(claim)) => Ok(claim),
-        Ok(None) => Err(failed(&format!(
+        Ok(None) => Err(Unopened::say(&format!(
             "{}: another process is assembling it; wait for that one",
             reel.shot().path.display()
         ))),
-        Err(error) => Err(failed(&error.to_string())),
+        Err(error) => Err(Unopened::say(&error.to_string())),
     }
 }
 
@@ -110,6 +111,5 @@ fn run_facts(job: &Job) -> RunFacts {
         outcomes: outcomes
             .map(|(frame, deed)| (*frame, outcome(deed)))
             .collect(),
-        ..RunFacts::default()
     }
 }

@@ -2,6 +2,7 @@
 
 use super::super::output::OUTPUTS;
 use super::run::{Outcome, RunFacts};
+use super::view::fitting;
 use crate::plan::facts;
 use crate::queue::{Reel, Status};
 use serde_json::{Value, json};
@@ -24,7 +25,7 @@ pub(super) fn key(reel: &Reel, run: &RunFacts, found: &[Status]) -> String {
             _ => None,
         };
         let fingerprint = reel.keys.frame(frame).fingerprint;
-        let record = reel.records.get(&frame);
+        let record = fitting(reel, frame);
         let facts = facts(shot, frame).ok();
         // `Debug` tells numbers to their last digit.
         json!([

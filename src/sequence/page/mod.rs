@@ -39,7 +39,7 @@ pub fn write(reel: &Reel, run: &RunFacts, stop: &Stop) -> io::Result<Option<Path
         return Ok(None);
     };
     let path = reel.folder.join(PAGE);
-    write_atomically(&path, text(reel, run, &views).as_bytes())?;
+    write_atomically(&path, text(reel, &views).as_bytes())?;
     // A page that is not remembered is only written again.
     let _unremembered = ledger::remember(reel, PAGE, key);
     Ok(Some(path))
@@ -54,14 +54,14 @@ pub fn is_fresh(reel: &Reel, run: &RunFacts) -> bool {
 }
 
 /// The whole HTML file.
-fn text(reel: &Reel, run: &RunFacts, views: &[View<'_>]) -> String {
+fn text(reel: &Reel, views: &[View<'_>]) -> String {
     let page = html! {
         (DOCTYPE)
         html lang="en" {
             (head::head(reel))
             body {
                 main {
-                    (head::opening(reel, run, views))
+                    (head::opening(reel, views))
                     (player::section(reel, views))
                     (grid::section(views))
                     (chart::section(views))

@@ -110,10 +110,17 @@ impl<'a> View<'a> {
             state,
             full: (picture.is_some() && browsers_show_it).then(|| beside(&name)),
             picture,
-            record: reel.records.get(&frame),
+            record: fitting(reel, frame),
             facts: facts(shot, frame).ok(),
         }
     }
+}
+
+/// The record of a frame, if it is of the frame as it should be: a run that was killed between a
+/// picture and its record leaves that of an older one.
+pub(super) fn fitting(reel: &Reel, frame: u32) -> Option<&Record> {
+    let record = reel.records.get(&frame)?;
+    (record.fingerprint == reel.keys.frame(frame).fingerprint).then_some(record)
 }
 
 /// What there is of each frame of a reel, in order.
