@@ -299,7 +299,7 @@ fn every_shot_of_the_call_is_in_the_answer_as_json() {
             answer["shots"][0]["error"]
                 .as_str()
                 .unwrap()
-                .contains("[shot]")
+                .contains("[[model]]")
         );
         assert_eq!(answer["shots"][1]["shot"], "passing.toml");
     }
