@@ -9,6 +9,7 @@
 )]
 
 mod finished {
+    pub(crate) mod again;
     pub(crate) mod animations;
     pub(crate) mod desk;
     pub(crate) mod refusals;

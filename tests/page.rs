@@ -7,7 +7,7 @@
 
 use indexmap::IndexMap;
 use restframe::film::{self, Metadata};
-use restframe::queue::{FileRecord, FrameList, Record, Reel, Request, Seconds};
+use restframe::queue::{FileRecord, FrameList, Record, Reel, Request, Seconds, Stop};
 use restframe::sequence::page::{Outcome, RunFacts, write};
 use restframe::shot::parse;
 use std::collections::BTreeMap;
@@ -131,7 +131,7 @@ fn finish(reel: &mut Reel, frames: &[u32]) {
 }
 
 fn page(reel: &Reel, run: &RunFacts) -> String {
-    let path = write(reel, run).unwrap();
+    let path = write(reel, run, &Stop::default()).unwrap().unwrap();
     assert_eq!(path, reel.folder.join("index.html"));
     fs::read_to_string(path).unwrap()
 }
@@ -172,8 +172,6 @@ fn every_frame_is_there_or_accounted_for() {
     let short = format!("stale: states.0007.png has {} bytes", short.len() / 2);
     let run = RunFacts {
         outcomes: outcomes(),
-        seconds: Some(12.0),
-        warnings: vec!["<the clock> ran backwards".to_owned()],
     };
     let page = page(&reel, &run);
     for (frame, state) in [
@@ -196,7 +194,6 @@ fn every_frame_is_there_or_accounted_for() {
         "<b>Frame 3:</b> missing",
         "<b>Frame 4:</b> failed: the disk is full",
         "<b>Frame 5:</b> 7 values &lt;beyond&gt; what",
-        "&lt;the clock&gt; ran backwards",
         "restframe 0.1.0",
         "2 threads",
     ] {
@@ -228,8 +225,28 @@ fn what_moves_stands_in_the_row_of_its_frame() {
     assert!(row(&page, 12).contains("href=\"./facts.0012.png\""));
     assert_eq!(
         page,
-        fs::read_to_string(write(&reel, &RunFacts::default()).unwrap()).unwrap()
+        fs::read_to_string(
+            write(&reel, &RunFacts::default(), &Stop::default())
+                .unwrap()
+                .unwrap()
+        )
+        .unwrap()
     );
+}
+
+/// A run that is killed between a picture and its record leaves that of an older picture.
+#[test]
+fn a_record_of_another_picture_is_not_told_of() {
+    let folder = folder("older");
+    let mut reel = reel(&folder, "older.toml", "Older", 2);
+    finish(&mut reel, &[1, 2]);
+    let record = reel.records.get_mut(&2).unwrap();
+    record.fingerprint = "0".repeat(64);
+    record.warnings = vec!["of the older one".to_owned()];
+    let page = page(&reel, &RunFacts::default());
+    assert!(row(&page, 2).contains("<td>finished"), "{}", row(&page, 2));
+    assert!(row(&page, 1).contains("−6.25") && !row(&page, 2).contains("−6.25"));
+    assert!(!page.contains("of the older one"));
 }
 
 #[test]
@@ -295,7 +312,7 @@ fn a_page_of_a_thousand_noisy_frames_has_less_than_15_megabytes() {
 fn a_shot_without_a_folder_has_no_page_and_says_so() {
     let folder = folder("absent");
     let reel = reel(&folder, "absent.toml", "Absent", 1);
-    let error = write(&reel, &RunFacts::default()).unwrap_err();
+    let error = write(&reel, &RunFacts::default(), &Stop::default()).unwrap_err();
     assert!(
         error.to_string().contains("must be an existing folder"),
         "{error}"

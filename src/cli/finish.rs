@@ -1,20 +1,19 @@
 //! The end of a shot's rendering: what is assembled of its frames, and the page about them.
 
-use super::{FAILURE, Failed, failed};
-use crate::queue::{Claim, Deed, Job, Progress, Reel, SEQUENCE};
+use super::verify::Unopened;
+use super::{FAILURE, Failed};
+use crate::queue::{Claim, Deed, Job, Progress, Reel, SEQUENCE, Stop};
 use crate::sequence::page::{self, Outcome, RunFacts};
-use crate::sequence::{AssembleError, finish};
-use std::fs;
-use std::path::Path;
-use std::sync::atomic::{AtomicBool, Ordering};
+use crate::sequence::{AssembleError, finish, is_finished};
+use std::sync::atomic::Ordering;
 use std::thread::sleep;
-use std::time::{Duration, SystemTime};
+use std::time::Duration;
 
 /// Who is told, and who may stop it.
 #[derive(Clone, Copy)]
 pub(super) struct Finisher<'a> {
     pub(super) progress: &'a Progress,
-    pub(super) stop: &'a AtomicBool,
+    pub(super) stop: &'a Stop,
 }
 
 impl Finisher<'_> {
@@ -31,6 +30,15 @@ impl Finisher<'_> {
             self.progress.error(&format!("{shot}: {why}"));
             Failed(FAILURE)
         };
+        job.reel
+            .refresh()
+            .map_err(|error| told(&error.to_string()))?;
+        let run = run_facts(job);
+        let is_told = |reel: &Reel| !reel.shot().sequence.page || page::is_fresh(reel, &run);
+        // Before the claim, for which a disk must be writable.
+        if is_finished(&job.reel) && is_told(&job.reel) {
+            return Ok(());
+        }
         let claim = self.claim(&job.reel).map_err(|error| told(&error))?;
         if claim.is_none() {
             return Ok(());
@@ -39,8 +47,9 @@ impl Finisher<'_> {
             let note = note.strip_prefix("warning: ").unwrap_or(note);
             self.progress.warn(&format!("{shot}: {note}"));
         };
-        let (made, done) = match finish(&mut job.reel, &notes) {
+        let (made, done) = match finish(&mut job.reel, &notes, self.stop) {
             Ok(made) => (made, Ok(())),
+            Err(AssembleError::Stopped) => return Ok(()),
             Err(AssembleError::Some { made, failures }) => {
                 let done = failures.iter().map(|failure| told(failure)).next_back();
                 (made, done.map_or(Ok(()), Err))
@@ -50,11 +59,9 @@ impl Finisher<'_> {
         for file in &made {
             self.progress.assembled(file);
         }
-        let run = run_facts(job);
-        let asked = job.reel.shot().sequence.page;
-        if asked && !(made.is_empty() && is_still_right(&job.reel, &run)) {
-            match page::write(&job.reel, &run) {
-                Ok(page) => self.progress.assembled(&page),
+        if !is_told(&job.reel) {
+            match page::write(&job.reel, &run, self.stop) {
+                Ok(page) => page.iter().for_each(|page| self.progress.assembled(page)),
                 // Why has been told.
                 Err(_) if job.is_halted() => {}
                 Err(error) => return Err(told(&error.to_string())),
@@ -66,7 +73,7 @@ impl Finisher<'_> {
     /// The claim on the sequence, which another process gives up soon; None if asked to stop.
     fn claim(self, reel: &Reel) -> Result<Option<Claim>, String> {
         const PAUSE: Duration = Duration::from_millis(50);
-        while !self.stop.load(Ordering::Relaxed) {
+        while !self.stop.asked().load(Ordering::Relaxed) {
             let claim = Claim::take(&reel.folder, &reel.names, SEQUENCE);
             match claim.map_err(|error| error.to_string())? {
                 Some(claim) => return Ok(Some(claim)),
@@ -78,14 +85,14 @@ impl Finisher<'_> {
 }
 
 /// The claim of whoever assembles by hand.
-pub(super) fn claim(reel: &Reel) -> Result<Claim, Failed> {
+pub(super) fn claim(reel: &Reel) -> Result<Claim, Unopened> {
     match Claim::take(&reel.folder, &reel.names, SEQUENCE) {
         Ok(Some(claim)) => Ok(claim),
-        Ok(None) => Err(failed(&format!(
+        Ok(None) => Err(Unopened::say(&format!(
             "{}: another process is assembling it; wait for that one",
             reel.shot().path.display()
         ))),
-        Err(error) => Err(failed(&error.to_string())),
+        Err(error) => Err(Unopened::say(&error.to_string())),
     }
 }
 
@@ -104,23 +111,5 @@ fn run_facts(job: &Job) -> RunFacts {
         outcomes: outcomes
             .map(|(frame, deed)| (*frame, outcome(deed)))
             .collect(),
-        ..RunFacts::default()
     }
-}
-
-/// Whether a run that kept everything finds a page that is younger than every record: to write it
-/// again would take as long as to read all pictures.
-fn is_still_right(reel: &Reel, run: &RunFacts) -> bool {
-    let kept = run.outcomes.values().all(|o| *o == Outcome::Kept);
-    let Some(page) = written(&reel.folder.join(page::PAGE)) else {
-        return false;
-    };
-    let manifests = fs::read_dir(&reel.folder).into_iter().flatten().flatten();
-    let mut manifests =
-        manifests.filter(|entry| reel.names.is_manifest(&entry.file_name().to_string_lossy()));
-    kept && manifests.all(|entry| written(&entry.path()).is_none_or(|when| when <= page))
-}
-
-fn written(path: &Path) -> Option<SystemTime> {
-    fs::metadata(path).ok()?.modified().ok()
 }

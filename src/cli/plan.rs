@@ -76,7 +76,7 @@ pub(super) fn run(arguments: &PlanArguments) -> Result<(), Failed> {
 /// The frames that are asked for.
 fn chosen(shot: &Shot, request: &Request) -> Result<Vec<u32>, Failed> {
     let (path, frames) = (shot.path.display(), shot.shot.frames);
-    check_scale(shot, request)?;
+    check_scale(shot, request).map_err(|why| misused(&why))?;
     let chosen = request.frames.resolve(frames).frames;
     if chosen.is_empty() {
         let message = format!("{path} has frames 1 to {frames}; none was chosen");

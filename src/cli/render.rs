@@ -66,10 +66,7 @@ fn render(arguments: &RenderArguments, progress: &Progress, stop: &Stop) -> Resu
         stop: stop.asked(),
         force,
     };
-    let finisher = Finisher {
-        progress,
-        stop: stop.asked(),
-    };
+    let finisher = Finisher { progress, stop };
     let mut finished = Ok(());
     night.render(&mut jobs, &mut |job| {
         if let Err(failed) = finisher.finish(job) {
@@ -182,7 +179,7 @@ fn choose(shot: &Shot, request: &Request, progress: &Progress) -> Result<Vec<u32
         outside,
     } = request.frames.resolve(frames);
     let path = shot.path.display();
-    check_scale(shot, request)?;
+    check_scale(shot, request).map_err(|why| misused(&why))?;
     if chosen.is_empty() {
         return Err(misused(&format!(
             "{path} has frames 1 to {frames}; none was chosen"
@@ -216,16 +213,16 @@ fn warnings(prepared: &Prepared) -> Vec<String> {
 }
 
 /// A scale that makes an image larger than any may be.
-pub(super) fn check_scale(shot: &Shot, request: &Request) -> Result<(), Failed> {
+pub(super) fn check_scale(shot: &Shot, request: &Request) -> Result<(), String> {
     let [width, height] = shot.image.size.map(|side| f64::from(side) * request.scale);
     if width.max(height).round() <= f64::from(LARGEST_SIDE) {
         return Ok(());
     }
-    Err(misused(&format!(
+    Err(format!(
         "--scale {} makes {width:.0} x {height:.0} pixels of {}; a side has at most {LARGEST_SIDE}",
         request.scale,
         shot.path.display()
-    )))
+    ))
 }
 
 /// Which frames are not there.

@@ -105,7 +105,7 @@ fn size(prepared: &Prepared, arguments: &StudyArguments) -> Result<Options, Fail
         scale,
         samples: Some(samples),
     };
-    check_scale(shot, &request)?;
+    check_scale(shot, &request).map_err(|why| misused(&why))?;
     Ok(Options {
         layers: Vec::new(),
         ..options(shot, &request)

@@ -1,10 +1,13 @@
 //! `restframe verify`.
 
-use super::{FAILURE, Failed, FinishedArguments, MISTAKE, failed, mistaken, print, print_json};
+use super::render::check_scale;
+use super::{
+    FAILURE, Failed, FinishedArguments, MISTAKE, failed, mistaken, misused, print, print_json,
+};
 use crate::queue::{FrameList, Reel, ReelError, Request};
 use crate::sequence::{Report, verify};
-use crate::shot;
-use serde_json::json;
+use crate::shot::{self, Mistakes};
+use serde_json::{Value, json};
 use std::path::Path;
 
 /// Looks at the frames of every shot; one with a mistake does not keep the others from it.
@@ -14,8 +17,9 @@ pub(super) fn run(arguments: &FinishedArguments) -> Result<(), Failed> {
     for path in &arguments.shots {
         let reel = match open(path, arguments) {
             Ok(reel) => reel,
-            Err(failed) => {
-                worst = worse(worst, failed);
+            Err(unopened) => {
+                reports.push(unopened.as_json(path));
+                worst = worse(worst, unopened.failed);
                 continue;
             }
         };
@@ -25,8 +29,8 @@ pub(super) fn run(arguments: &FinishedArguments) -> Result<(), Failed> {
         }
         if arguments.json {
             reports.push(json!({
-                "shot": path,
-                "folder": reel.folder,
+                "shot": path.to_string_lossy(),
+                "folder": reel.folder.to_string_lossy(),
                 "frames": report.frames,
                 "sound": report.sound(),
                 "findings": report.findings,
@@ -48,18 +52,50 @@ fn tell(path: &Path, report: &Report) -> Result<(), Failed> {
     print(&format!("{}: {}", path.display(), report.summary()))
 }
 
+/// A shot whose frames cannot be looked at; why, has been said.
+pub(super) struct Unopened {
+    pub(super) failed: Failed,
+    why: String,
+}
+
+impl Unopened {
+    /// Says why.
+    pub(super) fn say(why: &str) -> Self {
+        Self {
+            failed: failed(why),
+            why: why.to_owned(),
+        }
+    }
+
+    fn mistaken(mistakes: &Mistakes) -> Self {
+        Self {
+            failed: mistaken(mistakes),
+            why: mistakes.to_string(),
+        }
+    }
+
+    /// What stands in the answer for the shot.
+    pub(super) fn as_json(&self, shot: &Path) -> Value {
+        json!({"shot": shot.to_string_lossy(), "error": self.why.trim_end()})
+    }
+}
+
 /// The finished frames of a shot.
-pub(super) fn open(path: &Path, arguments: &FinishedArguments) -> Result<Reel, Failed> {
-    let shot = shot::load(path).map_err(|m| mistaken(&m))?;
+pub(super) fn open(path: &Path, arguments: &FinishedArguments) -> Result<Reel, Unopened> {
+    let shot = shot::load(path).map_err(|m| Unopened::mistaken(&m))?;
     let request = Request {
         out: arguments.out.clone(),
         frames: FrameList::all(),
         scale: arguments.scale,
         samples: arguments.samples,
     };
+    if let Err(why) = check_scale(&shot, &request) {
+        let failed = misused(&why);
+        return Err(Unopened { failed, why });
+    }
     Reel::open(&shot, &request).map_err(|error| match error {
-        ReelError::Mistakes(mistakes) => mistaken(&mistakes),
-        error @ ReelError::Folder { .. } => failed(&error.to_string()),
+        ReelError::Mistakes(mistakes) => Unopened::mistaken(&mistakes),
+        error @ ReelError::Folder { .. } => Unopened::say(&error.to_string()),
     })
 }
 

@@ -1,23 +1,23 @@
 //! What a picture file says it is made of, read back; and whether all of it can be read.
 //!
 //! Files may be anybody's: what cannot be read is no picture, and no more memory is taken than a
-//! header or some rows need.
+//! header, or a picture of the size that is expected, needs.
 
 use super::FINGERPRINT;
-use ::exr::block::reader::ChunksReader;
+use super::decode::{self, MOST_METADATA, read_bytes};
 use ::exr::meta::MetaData;
 use ::exr::meta::attribute::AttributeValue;
-use std::fs::File;
-use std::io::BufReader;
+use std::io::{BufReader, Read};
 use std::path::Path;
 
 /// The fingerprint in the header of a PNG or EXR file, by the file's extension.
 pub fn fingerprint(path: &Path) -> Option<String> {
+    let head = decode::open(path).ok()?.take(MOST_METADATA);
     if is_exr(path) {
-        of_exr(&MetaData::read_from_file(path, false).ok()?)
+        of_exr(&MetaData::read_from_unbuffered(head, false).ok()?)
     } else {
-        let file = BufReader::new(File::open(path).ok()?);
-        let reader = ::png::Decoder::new(file).read_info().ok()?;
+        let reader = ::png::Decoder::new(BufReader::new(head));
+        let reader = reader.read_info().ok()?;
         let mut texts = reader.info().uncompressed_latin1_text.iter();
         let found = texts.find(|text| text.keyword == FINGERPRINT)?;
         Some(found.text.clone())
@@ -39,37 +39,14 @@ fn of_exr(meta: &MetaData) -> Option<String> {
 
 /// Whether a PNG or EXR file is of this size and can be decoded to its last byte.
 pub fn is_whole(path: &Path, size: [u32; 2]) -> bool {
-    let Ok(file) = File::open(path) else {
-        return false;
-    };
-    let file = BufReader::new(file);
-    if is_exr(path) {
-        whole_exr(file, size).is_some()
-    } else {
-        whole_png(file, size).is_some()
-    }
-}
-
-fn whole_png(file: BufReader<File>, size: [u32; 2]) -> Option<()> {
-    let mut reader = ::png::Decoder::new(file).read_info().ok()?;
-    if [reader.info().width, reader.info().height] != size {
-        return None;
-    }
-    while reader.next_row().ok()?.is_some() {}
-    reader.finish().ok()
-}
-
-fn whole_exr(file: BufReader<File>, size: [u32; 2]) -> Option<()> {
-    let reader = ::exr::block::read(file, false).ok()?;
-    let [header] = reader.headers() else {
-        return None;
-    };
-    let found = (header.layer_size.0, header.layer_size.1);
-    if found != (size[0] as usize, size[1] as usize) {
-        return None;
-    }
-    let chunks = reader.all_chunks(false).ok()?;
-    chunks.decompress_sequential(false, |_, _| Ok(())).ok()
+    let decoded = read_bytes(path, size).and_then(|bytes| {
+        if is_exr(path) {
+            decode::exr(&bytes, size, |linear| linear)
+        } else {
+            decode::png(&bytes, size)
+        }
+    });
+    decoded.is_ok()
 }
 
 fn is_exr(path: &Path) -> bool {

@@ -2,13 +2,15 @@
 //!
 //! In: a [`Film`] of CIE XYZ in cd/m² (Y is luminance), or of three bands' radiance in W·m⁻²·sr⁻¹,
 //! with optional layers of scene data. Out: linear Rec.709, or the bands, after exposure
-//! ([`develop`]), PNG and OpenEXR files as bytes in memory ([`png::encode`], [`exr::encode`]), the
+//! ([`develop`]), PNG and OpenEXR files as bytes in memory ([`png::encode`], [`exr::encode`]), those
+//! files' pixels again, whoever wrote them ([`decode`]), the
 //! differences of two pictures ([`compare`]), and curves as drawings ([`plot`]).
 //! Pixels are row-major, top row first. Invariant: equal input gives equal bytes, whatever the
 //! number of threads; so no file holds a date, a host or a duration.
 
 mod ciede2000;
 pub mod compare;
+pub mod decode;
 mod develop;
 mod expose;
 pub mod exr;

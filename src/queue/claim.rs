@@ -113,7 +113,7 @@ fn stands_at(_: &File, path: &Path) -> bool {
 
 /// Removes what killed runs left in a folder: files that they were writing, and their locks. What
 /// another process is working on is left alone. Trouble is passed over: leftovers do no harm.
-pub(super) fn sweep(folder: &Path, names: &Names) {
+pub fn sweep(folder: &Path, names: &Names) {
     for name in file_names(folder) {
         let Some(what) = names.claim_of_temporary(&name) else {
             continue;

@@ -35,7 +35,7 @@ mod work;
 mod write;
 
 pub use batch::most_together;
-pub use claim::Claim;
+pub use claim::{Claim, sweep};
 pub use cost::{Costs, Estimate, effect_names, frame_bytes, memory_bytes};
 pub use deed::Deed;
 pub use frames::{FrameList, FrameListError, Resolved, list_of};
@@ -51,4 +51,4 @@ pub use shard::{Shard, ShardError};
 pub use shifts::refuse_shifted_numbers;
 pub use shots::{Exposing, Prepared, RenderError, Request, options};
 pub use signals::Stop;
-pub use write::write_atomically;
+pub use write::{explain, write_atomically};

@@ -120,7 +120,8 @@ fn sync_folder(_: &Path) -> io::Result<()> {
     Ok(())
 }
 
-pub(super) fn explain(path: &Path, error: &io::Error) -> io::Error {
+/// An error with the path that could not be written and what to do about it.
+pub fn explain(path: &Path, error: &io::Error) -> io::Error {
     let folder = folder_of(path).display();
     let remedy = match error.kind() {
         ErrorKind::StorageFull | ErrorKind::QuotaExceeded => {

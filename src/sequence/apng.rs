@@ -1,17 +1,15 @@
 //! An animated PNG: every frame with all its colours. W3C, Portable Network Graphics (Third
 //! Edition), 2025: acTL, fcTL, fdAT.
 
-use super::draft::Draft;
+use super::draft::{Draft, Pen};
 use super::still::Still;
 use super::target::Target;
-use std::fs::File;
-use std::io::BufWriter;
 use std::path::PathBuf;
 
 /// An animation in the making.
 pub(super) struct Apng {
     draft: Draft,
-    writer: png::Writer<BufWriter<File>>,
+    writer: png::Writer<Pen>,
 }
 
 impl Apng {
@@ -22,8 +20,8 @@ impl Apng {
         frames: u32,
         rate: (i32, u32),
     ) -> Result<Self, String> {
-        let begin = || {
-            let mut encoder = png::Encoder::new(draft.writer()?, width, height);
+        let begin = || -> Result<_, png::EncodingError> {
+            let mut encoder = png::Encoder::new(draft.pen(), width, height);
             encoder.set_color(png::ColorType::Rgb);
             encoder.set_depth(png::BitDepth::Eight);
             encoder.set_source_srgb(png::SrgbRenderingIntent::RelativeColorimetric);

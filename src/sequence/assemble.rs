@@ -14,10 +14,10 @@ use super::parts::Parts;
 use super::sheet::Sheet;
 use super::still::{self, Still, StillError};
 use super::target::Target;
-use super::verify::verify;
+use super::verify::{is_asked, verify_until};
 use super::video::{self, Video};
 use crate::film::rational_rate;
-use crate::queue::{Reel, ReelError, Status};
+use crate::queue::{Reel, ReelError, Status, Stop};
 use rayon::prelude::*;
 use std::path::PathBuf;
 
@@ -39,6 +39,9 @@ pub enum AssembleError {
     /// The folder cannot be read.
     #[error(transparent)]
     Reel(#[from] ReelError),
+    /// It was asked to stop. What was made until then is whole.
+    #[error("stopped")]
+    Stopped,
     /// Some files were made and others not.
     #[error("{}", .failures.join("; "))]
     Some {
@@ -59,12 +62,16 @@ fn quoted(findings: &[Finding]) -> String {
 }
 
 /// Assembles all that a shot asks for, be it there already or not; returns the files. `notes` is
-/// told what one should know.
+/// told what one should know. Asked to stop, it ends soon and leaves nothing that is not whole.
 ///
 /// # Errors
 /// When a frame is missing or wrong nothing is made; when a file cannot be made the others are.
-pub fn assemble(reel: &Reel, notes: &dyn Fn(&str)) -> Result<Vec<PathBuf>, AssembleError> {
-    make(reel, &Output::of(&reel.shot().sequence), notes)
+pub fn assemble(
+    reel: &Reel,
+    notes: &dyn Fn(&str),
+    stop: &Stop,
+) -> Result<Vec<PathBuf>, AssembleError> {
+    make(reel, &Output::of(&reel.shot().sequence), notes, stop)
 }
 
 /// Assembles, at the end of a shot's rendering, what is not there or is of other frames; nothing
@@ -73,26 +80,42 @@ pub fn assemble(reel: &Reel, notes: &dyn Fn(&str)) -> Result<Vec<PathBuf>, Assem
 ///
 /// # Errors
 /// As [`assemble`].
-pub fn finish(reel: &mut Reel, notes: &dyn Fn(&str)) -> Result<Vec<PathBuf>, AssembleError> {
+pub fn finish(
+    reel: &mut Reel,
+    notes: &dyn Fn(&str),
+    stop: &Stop,
+) -> Result<Vec<PathBuf>, AssembleError> {
     reel.refresh()?;
-    let fresh = |frame: u32| reel.status(frame, &reel.keys.frame(frame)) == Status::Fresh;
-    if !(1..=reel.shot().shot.frames).all(fresh) {
-        return Ok(Vec::new());
-    }
+    make(reel, &outstanding(reel), notes, stop)
+}
+
+/// Whether [`finish`] would find nothing to make.
+pub fn is_finished(reel: &Reel) -> bool {
+    outstanding(reel).is_empty()
+}
+
+/// What is asked for and not there, if it can be made.
+fn outstanding(reel: &Reel) -> Vec<Output> {
     let mut outputs = Output::of(&reel.shot().sequence);
     outputs.retain(|output| !ledger::is_fresh(reel, *output));
-    make(reel, &outputs, notes)
+    let fresh = |frame: u32| reel.status(frame, &reel.keys.frame(frame)) == Status::Fresh;
+    if !outputs.is_empty() && !(1..=reel.shot().shot.frames).all(fresh) {
+        outputs.clear();
+    }
+    outputs
 }
 
 fn make(
     reel: &Reel,
     outputs: &[Output],
     notes: &dyn Fn(&str),
+    stop: &Stop,
 ) -> Result<Vec<PathBuf>, AssembleError> {
     if outputs.is_empty() {
         return Ok(Vec::new());
     }
-    let (forbidding, others): (Vec<Finding>, Vec<Finding>) = verify(reel)
+    let report = verify_until(reel, stop).ok_or(AssembleError::Stopped)?;
+    let (forbidding, others): (Vec<Finding>, Vec<Finding>) = report
         .findings
         .into_iter()
         .partition(|finding| finding.kind.forbids_assembling());
@@ -106,6 +129,7 @@ fn make(
         reel,
         parts: Parts::new(reel.shot(), reel.keys.picture().size),
         notes,
+        stop,
     };
     making.run(outputs)
 }
@@ -115,6 +139,7 @@ struct Making<'a> {
     reel: &'a Reel,
     parts: Parts,
     notes: &'a dyn Fn(&str),
+    stop: &'a Stop,
 }
 
 type Begun = (Output, Result<Box<dyn Target>, String>);
@@ -131,10 +156,13 @@ impl Making<'_> {
         let mut made = Vec::new();
         let mut failures = Vec::new();
         for (output, target) in begun {
-            match target.and_then(Target::finish) {
+            let finished = target.and_then(Target::finish);
+            // What was stopped has not failed.
+            self.go_on()?;
+            match finished {
                 Ok(path) => {
                     made.push(path);
-                    if let Err(error) = ledger::remember(self.reel, output) {
+                    if let Err(error) = ledger::remember_output(self.reel, output) {
                         (self.notes)(&format!(
                             "warning: {} will be made again: {error}",
                             self.name(output)
@@ -149,6 +177,13 @@ impl Making<'_> {
         } else {
             Err(AssembleError::Some { made, failures })
         }
+    }
+
+    fn go_on(&self) -> Result<(), AssembleError> {
+        if is_asked(self.stop) {
+            return Err(AssembleError::Stopped);
+        }
+        Ok(())
     }
 
     fn name(&self, output: Output) -> String {
@@ -189,17 +224,18 @@ impl Making<'_> {
                         "{name} is padded to {width} x {height} pixels: videos have even sides"
                     ));
                 }
-                Box::new(Video::new(draft, kind, size, frames, rate()?)?)
+                Box::new(Video::new(draft, kind, size, frames, rate()?, self.stop)?)
             }
         })
     }
 
     /// The colours of the sequence, by some of its frames.
-    fn palette(&self) -> Result<Palette, StillError> {
+    fn palette(&self) -> Result<Palette, AssembleError> {
         let frames = self.reel.shot().shot.frames;
         let step = frames.div_ceil(gif::SAMPLED_FRAMES).max(1);
         let mut samples = Vec::new();
         for frame in (1..=frames).step_by(step as usize) {
+            self.go_on()?;
             let still = self.parts.arrange(still::read(self.reel, frame)?);
             samples.extend(gif::sample(&still, frames));
         }
@@ -207,10 +243,11 @@ impl Making<'_> {
     }
 
     /// Hands every frame to every file that has not failed.
-    fn feed(&self, begun: &mut [Begun]) -> Result<(), StillError> {
+    fn feed(&self, begun: &mut [Begun]) -> Result<(), AssembleError> {
         let numbers: Vec<u32> = (1..=self.reel.shot().shot.frames).collect();
         let (reel, parts) = (self.reel, &self.parts);
         for some in numbers.chunks(rayon::current_num_threads().max(1)) {
+            self.go_on()?;
             if begun.iter().all(|(_, target)| target.is_err()) {
                 break;
             }

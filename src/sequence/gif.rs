@@ -1,12 +1,10 @@
 //! An animated GIF: 256 colours, one palette for all frames. CompuServe, GIF89a (1990); loops by the
 //! Netscape 2.0 extension.
 
-use super::draft::Draft;
+use super::draft::{Draft, Pen};
 use super::palette::Palette;
 use super::still::Still;
 use super::target::Target;
-use std::fs::File;
-use std::io::BufWriter;
 use std::path::PathBuf;
 
 /// Most frames a second that viewers show: faster ones they slow to 10.
@@ -21,7 +19,7 @@ const SAMPLED_PIXELS: usize = 1 << 19;
 /// An animation in the making.
 pub(super) struct Gif {
     draft: Draft,
-    encoder: gif::Encoder<BufWriter<File>>,
+    encoder: gif::Encoder<Pen>,
     palette: Palette,
     size: [u16; 2],
     fps: f64,
@@ -50,9 +48,8 @@ impl Gif {
                 "a GIF has at most 65535 pixels a side, not {width} x {height}; ask for apng"
             ));
         };
-        let writer = draft.writer().map_err(|error| error.to_string())?;
         let begin = || {
-            let mut encoder = gif::Encoder::new(writer, width, height, &palette.bytes())?;
+            let mut encoder = gif::Encoder::new(draft.pen(), width, height, &palette.bytes())?;
             encoder.set_repeat(gif::Repeat::Infinite)?;
             Ok(encoder)
         };
@@ -83,9 +80,8 @@ impl Target for Gif {
     }
 
     fn finish(self: Box<Self>) -> Result<PathBuf, String> {
-        let writer = self.encoder.into_inner();
-        let writer = writer.map_err(|error| error.to_string())?;
-        writer.into_inner().map_err(|error| error.to_string())?;
+        let written = self.encoder.into_inner();
+        written.map_err(|error| error.to_string())?;
         self.draft.keep().map_err(|error| error.to_string())
     }
 }

@@ -2,16 +2,20 @@
 //! right is not made again. STEM.sequence.jsonl, beside the manifest.
 
 use super::output::Output;
+use crate::film::decode::open;
 use crate::plan::facts;
 use crate::queue::Reel;
 use serde::{Deserialize, Serialize};
 use serde_json::json;
-use std::fs::{self, File, OpenOptions};
-use std::io::{self, Read, Write};
+use std::fs::{self, OpenOptions};
+use std::io::{self, Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
 /// Raised whenever the same frames make another file than before.
 const EPOCH: u32 = 1;
+
+/// Bytes that are read of it at most, whoever wrote them: some thousand lines.
+const MOST: u64 = 1 << 20;
 
 /// A file that was assembled.
 #[derive(Debug, Serialize, Deserialize)]
@@ -62,36 +66,57 @@ fn path(reel: &Reel) -> PathBuf {
 /// Whether the file is there as it was assembled of just these frames.
 pub(super) fn is_fresh(reel: &Reel, output: Output) -> bool {
     let name = reel.names.assembled(output.suffix());
-    let text = fs::read(path(reel)).unwrap_or_default();
+    holds(reel, &name, || key(reel, output))
+}
+
+/// Remembers that the file was assembled of the reel's frames.
+pub(super) fn remember_output(reel: &Reel, output: Output) -> io::Result<()> {
+    let name = reel.names.assembled(output.suffix());
+    remember(reel, &name, key(reel, output))
+}
+
+/// Whether a file of this name is there as it was made of what has this key.
+pub(super) fn holds(reel: &Reel, name: &str, key: impl Fn() -> String) -> bool {
+    let text = last_lines(&path(reel)).unwrap_or_default();
     let lines = text.rsplit(|byte| *byte == b'\n');
     let last = lines
         .filter_map(|line| serde_json::from_slice::<Line>(line).ok())
         .find(|line| line.assembled == name);
     last.is_some_and(|line| {
-        line.key == key(reel, output)
-            && hash(&reel.folder.join(&name)).is_ok_and(|found| found == line.blake3)
+        hash(&reel.folder.join(name)).is_ok_and(|found| found == line.blake3) && line.key == key()
     })
 }
 
-/// Remembers that the file was assembled of the reel's frames.
-pub(super) fn remember(reel: &Reel, output: Output) -> io::Result<()> {
-    let name = reel.names.assembled(output.suffix());
+/// Remembers of what a file of this name was made.
+pub(super) fn remember(reel: &Reel, name: &str, key: String) -> io::Result<()> {
     let line = Line {
-        key: key(reel, output),
-        blake3: hash(&reel.folder.join(&name))?,
-        assembled: name,
+        key,
+        blake3: hash(&reel.folder.join(name))?,
+        assembled: name.to_owned(),
     };
     let text = format!("\n{}\n", serde_json::to_string(&line)?);
-    let mut file = OpenOptions::new()
-        .create(true)
-        .append(true)
-        .open(path(reel))?;
+    // Who put a pipe or a link there is not followed.
+    let path = path(reel);
+    if fs::symlink_metadata(&path).is_ok_and(|found| !found.is_file()) {
+        return Err(io::ErrorKind::AlreadyExists.into());
+    }
+    let mut file = OpenOptions::new().create(true).append(true).open(path)?;
     file.write_all(text.as_bytes())?;
     file.sync_all()
 }
 
+/// The end of the file, which has every line that still matters.
+fn last_lines(path: &Path) -> io::Result<Vec<u8>> {
+    let mut file = open(path)?;
+    let length = file.metadata()?.len();
+    file.seek(SeekFrom::Start(length.saturating_sub(MOST)))?;
+    let mut text = Vec::new();
+    file.take(MOST).read_to_end(&mut text)?;
+    Ok(text)
+}
+
 fn hash(path: &Path) -> io::Result<String> {
-    let mut file = File::open(path)?;
+    let mut file = open(path)?;
     let mut hasher = blake3::Hasher::new();
     let mut block = vec![0; 1 << 16];
     loop {

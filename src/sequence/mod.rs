@@ -6,7 +6,6 @@
 
 mod apng;
 mod assemble;
-mod decode;
 mod draft;
 mod finding;
 mod gif;
@@ -17,6 +16,7 @@ mod output;
 pub mod page;
 mod palette;
 mod parts;
+mod program;
 mod reduce;
 mod sheet;
 mod still;
@@ -24,7 +24,7 @@ mod target;
 mod verify;
 mod video;
 
-pub use assemble::{AssembleError, assemble, finish};
+pub use assemble::{AssembleError, assemble, finish, is_finished};
 pub use finding::{Finding, Kind, Report};
 pub use still::{Still, StillError, read};
 pub use verify::verify;

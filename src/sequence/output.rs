@@ -45,6 +45,17 @@ impl Output {
         }
     }
 
+    /// What it is called on the page.
+    pub(super) fn title(self) -> &'static str {
+        match self {
+            Self::Sheet => "contact sheet",
+            Self::Gif => "GIF",
+            Self::Apng => "APNG",
+            Self::Video(Video::Mp4) => "video",
+            Self::Video(Video::Av1) => "AV1 video",
+        }
+    }
+
     /// What it is called in the shot.
     pub(super) fn word(self) -> &'static str {
         match self {

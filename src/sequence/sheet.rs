@@ -4,17 +4,17 @@
 //! A cell is the frame, reduced in linear light to the width that the shot gives and never
 //! enlarged, and its caption below.
 
-use super::draft::Draft;
+use super::draft::{Draft, Pen};
 use super::parts::Parts;
 use super::reduce::reduce;
 use super::still::Still;
 use super::target::Target;
+use crate::film::plot::escaped;
 use crate::film::raster;
 use crate::plan::facts;
 use crate::queue::Reel;
 use crate::shot::LARGEST_SIDE;
-use std::fs::File;
-use std::io::{BufWriter, Write};
+use std::io::{self, Write};
 use std::path::PathBuf;
 
 /// Between and around cells, pixels.
@@ -98,7 +98,7 @@ impl Layout {
 /// A sheet in the making.
 pub(super) struct Sheet {
     draft: Draft,
-    writer: png::StreamWriter<'static, BufWriter<File>>,
+    writer: png::StreamWriter<'static, Pen>,
     layout: Layout,
     captions: Vec<Vec<(u32, String)>>,
     /// Reduced frames of the row that fills.
@@ -139,7 +139,7 @@ impl Sheet {
         });
         let begin = || {
             let [width, height] = layout.size;
-            let mut encoder = png::Encoder::new(draft.writer()?, width, height);
+            let mut encoder = png::Encoder::new(draft.pen(), width, height);
             encoder.set_color(png::ColorType::Rgb);
             encoder.set_depth(png::BitDepth::Eight);
             encoder.set_source_srgb(png::SrgbRenderingIntent::RelativeColorimetric);
@@ -158,16 +158,16 @@ impl Sheet {
         Ok(sheet)
     }
 
-    fn title(&mut self, title: &str) -> std::io::Result<()> {
+    fn title(&mut self, title: &str) -> io::Result<()> {
         let layout = self.layout;
         let mut band = Band::new(layout.size[0], layout.title);
         let letters = layout.letters * 1.4;
-        band.write(letters, &[(GAP, layout.title * 2 / 3, title)]);
+        band.write(letters, &[(GAP, layout.title * 2 / 3, title)])?;
         self.writer.write_all(&band.rgb8)
     }
 
     /// Writes the row that has filled: frames, captions, a gap.
-    fn flush(&mut self, first: usize) -> std::io::Result<()> {
+    fn flush(&mut self, first: usize) -> io::Result<()> {
         let layout = self.layout;
         let below = layout.lines * layout.line + GAP;
         let left = |column: usize| GAP + column as u32 * (layout.width + GAP);
@@ -182,7 +182,7 @@ impl Sheet {
             }
         }
         let mut captions = Band::new(layout.size[0], below);
-        captions.write(layout.letters, &words);
+        captions.write(layout.letters, &words)?;
         self.row.clear();
         self.writer.write_all(&pictures.rgb8)?;
         self.writer.write_all(&captions.rgb8)
@@ -234,7 +234,7 @@ impl Band {
     }
 
     /// Writes texts whose base lines begin at points, in letters of a size.
-    fn write(&mut self, letters: f64, texts: &[(u32, u32, &str)]) {
+    fn write(&mut self, letters: f64, texts: &[(u32, u32, &str)]) -> io::Result<()> {
         let (width, height) = (self.width, self.height);
         let mut svg = format!(
             "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" \
@@ -242,30 +242,17 @@ impl Band {
              sans-serif\" font-size=\"{letters}\" fill=\"#e6e6e6\">"
         );
         for (x, y, text) in texts {
-            svg += &format!("<text x=\"{x}\" y=\"{y}\">{}</text>", escaped(text));
+            // Blanks that stay apart.
+            let text = escaped(text).replace(' ', "\u{a0}");
+            svg += &format!("<text x=\"{x}\" y=\"{y}\">{text}</text>");
         }
         svg += "</svg>";
-        let Some(painted) = raster::paint(&svg, width, height) else {
-            return;
-        };
+        let painted = raster::paint(&svg, width, height).ok_or_else(|| {
+            io::Error::other("its words cannot be painted; set sequence.sheet.columns to fewer")
+        })?;
         painted.lay_over(&mut self.rgb8, width, [0, 0]);
+        Ok(())
     }
-}
-
-/// Text as it may stand in an SVG, its blanks kept apart, without what XML cannot hold.
-fn escaped(text: &str) -> String {
-    let mut escaped = String::new();
-    for letter in text.chars() {
-        match letter {
-            '&' => escaped += "&amp;",
-            '<' => escaped += "&lt;",
-            '>' => escaped += "&gt;",
-            ' ' => escaped.push('\u{a0}'),
-            letter if letter.is_control() => {}
-            letter => escaped.push(letter),
-        }
-    }
-    escaped
 }
 
 #[cfg(test)]
@@ -294,10 +281,14 @@ mod tests {
     }
 
     #[test]
-    fn words_of_a_title_cannot_break_the_drawing() {
-        let mut band = Band::new(40, 20);
-        band.write(12.0, &[(2, 14, "a < b & \"c\" > d\u{1}</text></svg>")]);
-        assert_eq!(escaped("<a>&\u{0} b"), "&lt;a&gt;&amp;\u{a0}b");
-        assert_eq!(band.rgb8.len(), 40 * 20 * 3);
+    fn words_of_a_title_are_painted_whatever_they_hold() {
+        let words = "a < b & \"c\" > d\u{1}\u{fffe}</text></svg>";
+        let mut band = Band::new(400, 20);
+        band.write(12.0, &[(2, 14, words)]).expect("painted");
+        let ink = |band: &Band| band.rgb8.iter().filter(|byte| **byte != GROUND).count();
+        let mut plain = Band::new(400, 20);
+        plain.write(12.0, &[(2, 14, "a")]).expect("painted");
+        // More letters than one.
+        assert!(ink(&plain) > 0 && ink(&band) > 5 * ink(&plain));
     }
 }

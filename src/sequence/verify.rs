@@ -4,16 +4,17 @@
 //! Files are decoded on all threads, one a thread at a time, so that memory is bounded by as many
 //! pictures as there are threads.
 
-use super::decode::{Fault, read_bytes};
 use super::finding::{Finding, Kind, Report};
 use super::orphans::orphans;
 use super::outlier::{Differences, Grid, Outlier};
 use super::still::{decode_as, shown_extension};
+use crate::film::decode::{Fault, read_bytes};
 use crate::plan::FrameKey;
-use crate::queue::{Record, Reel, Status};
+use crate::queue::{Record, Reel, Status, Stop};
 use rayon::prelude::*;
 use serde_json::Value;
 use std::path::Path;
+use std::sync::atomic::Ordering;
 
 /// Frames between two looks at how they differ: enough for all threads.
 const AT_ONCE: usize = 64;
@@ -26,13 +27,23 @@ const KINK: f64 = 0.4;
 /// Looks at every frame of a reel, and at the files beside them. A folder that is not there has no
 /// frames.
 pub fn verify(reel: &Reel) -> Report {
+    let never = Stop::default();
+    verify_until(reel, &never).unwrap_or_default()
+}
+
+/// The same, unless asked to stop.
+pub(super) fn verify_until(reel: &Reel, stop: &Stop) -> Option<Report> {
     let frames = reel.shot().shot.frames;
     let mut findings = Vec::new();
     let mut differences = Differences::default();
     let numbers: Vec<u32> = (1..=frames).collect();
     for some in numbers.chunks(AT_ONCE) {
-        let looked: Vec<_> = some.par_iter().map(|frame| look(reel, *frame)).collect();
-        for (found, grid) in looked {
+        let looked: Vec<_> = some
+            .par_iter()
+            .map(|frame| (!is_asked(stop)).then(|| look(reel, *frame)))
+            .collect();
+        for looked in looked {
+            let (found, grid) = looked?;
             findings.extend(found);
             differences.push(grid);
         }
@@ -41,7 +52,12 @@ pub fn verify(reel: &Reel) -> Report {
     findings.extend(outliers.filter_map(|outlier| tell(reel, &outlier)));
     findings.sort_by_key(|finding| finding.frame);
     findings.extend(orphans(reel));
-    Report { frames, findings }
+    Some(Report { frames, findings })
+}
+
+/// Whether somebody asked to stop.
+pub(super) fn is_asked(stop: &Stop) -> bool {
+    stop.asked().load(Ordering::Relaxed)
 }
 
 /// What is wrong with one frame by itself; and its grid, if it can be shown.

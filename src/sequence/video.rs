@@ -5,33 +5,26 @@
 //! pixels. H.264 at a constant rate factor of 18, AV1 at 20 with 10 bits.
 
 use super::draft::Draft;
+use super::program::Program;
 use super::still::Still;
 use super::target::Target;
+use crate::queue::Stop;
 use crate::shot::Video as Kind;
 use std::ffi::OsString;
-use std::io::{self, Read, Write};
+use std::io::{self, Read};
 use std::path::PathBuf;
-use std::process::{Child, Command, Stdio};
-use std::thread::JoinHandle;
+use std::process::Command;
 
 /// Least pixels a side of the AV1 encoder (SVT-AV1 1.4).
 const LEAST_AV1: u32 = 64;
 
-/// Lines of what ffmpeg said last that are quoted.
-const QUOTED: usize = 4;
-
 /// A video in the making.
 pub(super) struct Video {
     draft: Draft,
-    ffmpeg: Ffmpeg,
+    ffmpeg: Program,
+    stop: Stop,
     frames: u32,
     size: [u32; 2],
-}
-
-/// A running ffmpeg; dropped, it is ended.
-struct Ffmpeg {
-    child: Child,
-    said: Option<JoinHandle<String>>,
 }
 
 /// A size with even sides, by one column or row more.
@@ -47,6 +40,7 @@ impl Video {
         size: [u32; 2],
         frames: u32,
         rate: (i32, u32),
+        stop: &Stop,
     ) -> Result<Self, String> {
         let [width, height] = size;
         if kind == Kind::Av1 && width.min(height) < LEAST_AV1 {
@@ -55,29 +49,20 @@ impl Video {
                  ask for video = \"mp4\""
             ));
         }
-        let spawned = Command::new("ffmpeg")
+        let mut command = Command::new("ffmpeg");
+        command
             .args(arguments(kind, even(size), rate))
-            .arg(draft.now())
-            .stdin(Stdio::piped())
-            .stdout(Stdio::null())
-            .stderr(Stdio::piped())
-            .spawn();
-        let mut child = spawned.map_err(|error| match error.kind() {
+            .arg(draft.now());
+        let ffmpeg = Program::start(&mut command, stop).map_err(|error| match error.kind() {
             io::ErrorKind::NotFound => "videos are made by ffmpeg, which is not to be found: \
                 install it (apt install ffmpeg), or leave out sequence.video"
                 .to_owned(),
             _ => format!("ffmpeg does not start: {error}"),
         })?;
-        let said = child.stderr.take().map(|mut pipe| {
-            std::thread::spawn(move || {
-                let mut bytes = Vec::new();
-                let _unheard = pipe.read_to_end(&mut bytes);
-                String::from_utf8_lossy(&bytes).into_owned()
-            })
-        });
         Ok(Self {
             draft,
-            ffmpeg: Ffmpeg { child, said },
+            ffmpeg,
+            stop: stop.clone(),
             frames,
             size,
         })
@@ -91,7 +76,7 @@ fn arguments(kind: Kind, [width, height]: [u32; 2], (n, d): (i32, u32)) -> Vec<O
         Kind::Av1 => ("yuv420p10le", "-c:v libsvtav1 -crf 20 -preset 6"),
     };
     let line = format!(
-        "-v error -nostdin -y -f rawvideo -pix_fmt rgb24 -s {width}x{height} -r {n}/{d} -i - \
+        "-v error -xerror -nostdin -y -f rawvideo -pix_fmt rgb24 -s {width}x{height} -r {n}/{d} -i - \
          -vf scale=in_range=full:out_range=tv:out_color_matrix=bt709,format={format} {codec} \
          -color_range tv -colorspace bt709 -color_primaries bt709 -color_trc iec61966-2-1 \
          -movflags +faststart -f mp4"
@@ -103,15 +88,17 @@ impl Target for Video {
     fn add(&mut self, _: u32, still: &Still) -> Result<(), String> {
         let padded = pad(still, even(self.size));
         let pixels = padded.as_ref().unwrap_or(&still.rgb8);
-        let pipe = self.ffmpeg.child.stdin.as_mut();
-        let written = pipe.map_or(Ok(()), |pipe| pipe.write_all(pixels));
+        let written = self.ffmpeg.write(pixels);
         // It has ended: what it said tells more than the broken pipe.
-        written.map_err(|error| self.ffmpeg.end().err().unwrap_or_else(|| error.to_string()))
+        written.map_err(|error| match self.ffmpeg.end() {
+            Err(why) => failed(&why),
+            Ok(()) => error.to_string(),
+        })
     }
 
     fn finish(mut self: Box<Self>) -> Result<PathBuf, String> {
-        self.ffmpeg.end()?;
-        match count(&self.draft) {
+        self.ffmpeg.end().map_err(|why| failed(&why))?;
+        match count(&self.draft, &self.stop)? {
             Some(found) if found != self.frames => Err(format!(
                 "ffmpeg made a video of {found} frames from {}; try another build of it",
                 self.frames
@@ -121,32 +108,8 @@ impl Target for Video {
     }
 }
 
-impl Ffmpeg {
-    /// Tells it that there is no more, and waits for its end.
-    fn end(&mut self) -> Result<(), String> {
-        drop(self.child.stdin.take());
-        let status = self.child.wait().map_err(|error| error.to_string())?;
-        let said = self.said.take().and_then(|said| said.join().ok());
-        if status.success() {
-            return Ok(());
-        }
-        let said = said.unwrap_or_default();
-        let lines: Vec<&str> = said
-            .lines()
-            .filter(|line| !line.trim().is_empty())
-            .collect();
-        let last = lines[lines.len().saturating_sub(QUOTED)..].join("; ");
-        let words = if last.is_empty() { "nothing" } else { &last };
-        Err(format!("ffmpeg failed ({status}) and said: {words}"))
-    }
-}
-
-impl Drop for Ffmpeg {
-    fn drop(&mut self) {
-        // Of one that has ended there is nothing to end.
-        let _ended = self.child.kill();
-        let _status = self.child.wait();
-    }
+fn failed(why: &str) -> String {
+    format!("ffmpeg failed {why}")
 }
 
 /// The pixels with their last column and row once more, where sides are odd.
@@ -167,19 +130,30 @@ fn pad(still: &Still, [width, height]: [u32; 2]) -> Option<Vec<u8>> {
     Some(padded)
 }
 
-/// How many frames a video has, if there is an ffprobe to tell.
-fn count(draft: &Draft) -> Option<u32> {
+/// How many frames a video has; none where there is no ffprobe to tell. ffmpeg ends well though the
+/// end of the file could not be written (5.1): a video that ffprobe cannot read is a torn one.
+fn count(draft: &Draft, stop: &Stop) -> Result<Option<u32>, String> {
     let words = "-v error -select_streams v:0 -count_frames -show_entries stream=nb_read_frames \
                  -of csv=p=0";
-    let told = Command::new("ffprobe")
-        .args(words.split_whitespace())
-        .arg(draft.now())
-        .stdin(Stdio::null())
-        .stderr(Stdio::null())
-        .output()
-        .ok()?;
-    let text = String::from_utf8(told.stdout).ok()?;
-    text.trim().trim_end_matches(',').parse().ok()
+    let mut command = Command::new("ffprobe");
+    command.args(words.split_whitespace()).arg(draft.now());
+    let mut ffprobe = match Program::start(&mut command, stop) {
+        Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(None),
+        started => started.map_err(|error| format!("ffprobe does not start: {error}"))?,
+    };
+    let mut text = String::new();
+    let read = ffprobe
+        .stdout()
+        .map_or(Ok(0), |mut pipe| pipe.read_to_string(&mut text));
+    let torn = |why: String| {
+        format!("ffmpeg left a video that ffprobe cannot read {why}; see that the disk has room")
+    };
+    ffprobe.end().map_err(torn)?;
+    read.map_err(|error| torn(format!("({error})")))?;
+    let count = text.trim().trim_end_matches(',').parse();
+    count
+        .map(Some)
+        .map_err(|_| torn(format!("(it counts {:?} frames)", text.trim())))
 }
 
 #[cfg(test)]

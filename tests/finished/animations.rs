@@ -2,6 +2,7 @@
 
 use super::desk::{Desk, FRAMES, SMALL, apart};
 use image::AnimationDecoder;
+use restframe::queue::Stop;
 use restframe::sequence::finish;
 use std::fs::{self, File};
 use std::io::{BufReader, Cursor};
@@ -108,7 +109,11 @@ fn many_colors_are_near_in_a_gif_and_what_stands_still_does_not_flicker() {
 #[test]
 fn a_second_pass_makes_what_is_not_there_or_of_other_frames() {
     let desk = Desk::small("apng = true\ngif = true");
-    let finished = || finish(&mut desk.reel(), &|_| {}).unwrap().len();
+    let finished = || {
+        finish(&mut desk.reel(), &|_| {}, &Stop::default())
+            .unwrap()
+            .len()
+    };
     assert_eq!(finished(), 2);
     assert_eq!(finished(), 0);
     fs::remove_file(desk.file("passing.gif")).unwrap();

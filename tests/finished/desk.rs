@@ -120,6 +120,19 @@ impl Desk {
         }
     }
 
+    /// Puts a program called ffmpeg into a folder, which gets first in the path that is returned.
+    #[cfg(unix)]
+    pub(crate) fn with_ffmpeg(&self, script: &str) -> String {
+        use std::os::unix::fs::PermissionsExt;
+        let folder = self.path("bin");
+        fs::create_dir_all(&folder).unwrap();
+        let program = folder.join("ffmpeg");
+        fs::write(&program, script).unwrap();
+        fs::set_permissions(&program, fs::Permissions::from_mode(0o755)).unwrap();
+        let path = std::env::var("PATH").unwrap_or_default();
+        format!("{}:{path}", folder.display())
+    }
+
     pub(crate) fn verify(&self) -> Outcome {
         self.call(&["verify", "passing.toml"])
     }

@@ -1,6 +1,7 @@
 //! The contact sheet's pixels.
 
 use super::desk::{Desk, SMALL, open};
+use std::process::Command;
 
 /// Linear light of an 8-bit value, by IEC 61966-2-1.
 fn linear(byte: u8) -> f64 {
@@ -72,4 +73,32 @@ fn a_sheet_of_spliced_parts_has_them_side_by_side_in_each_cell() {
         let (x, y) = if y < 32 { (x, y) } else { (x + 64, y - 32) };
         assert_eq!(sheet.get_pixel(8 + x, 21 + y), pixel, "{x}, {y}");
     }
+}
+
+#[cfg(unix)]
+#[test]
+fn a_sheet_that_cannot_be_written_to_its_end_is_not_kept() {
+    let desk = Desk::small("page = false\nsheet = { columns = 4, width = 64 }");
+    assert_eq!(desk.assemble().status, 0);
+    let sheet = desk.file("passing.sheet.png");
+    let bytes = std::fs::metadata(&sheet).unwrap().len();
+    std::fs::remove_file(&sheet).unwrap();
+    // Blocks of 512 bytes: the last of the sheet's is one too many, so that only its end is lost.
+    let blocks = (bytes - 1) / 512;
+    let told = Command::new("sh")
+        .args([
+            "-c",
+            "ulimit -f $1; exec \"$2\" assemble passing.toml",
+            "sh",
+        ])
+        .arg(blocks.to_string())
+        .arg(env!("CARGO_BIN_EXE_restframe"))
+        .current_dir(desk.path(""))
+        .output()
+        .unwrap();
+    assert_eq!(told.status.code(), Some(1));
+    let said = String::from_utf8(told.stderr).unwrap();
+    assert!(said.contains("raise the limit on file sizes"), "{said}");
+    assert!(!sheet.exists());
+    assert_eq!(desk.names(".tmp"), [""; 0]);
 }

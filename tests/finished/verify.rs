@@ -218,3 +218,93 @@ fn ramps_of_velocity_pans_and_flights_have_no_outliers() {
         assert_eq!(sequence::verify(&reel).findings, [], "{name}");
     }
 }
+
+/// Verifies the desk's shot by a command that begins so; a call that never ends is status 124.
+#[cfg(target_os = "linux")]
+fn verify_by(desk: &Desk, command: &str) -> (Option<i32>, String) {
+    let line = format!(
+        "{command} {} verify passing.toml",
+        env!("CARGO_BIN_EXE_restframe")
+    );
+    let told = Command::new("sh")
+        .args(["-c", &line])
+        .current_dir(desk.path(""))
+        .output()
+        .unwrap();
+    (told.status.code(), String::from_utf8(told.stdout).unwrap())
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn pipes_in_place_of_frames_hold_nobody_up() {
+    let desk = Desk::new(SMALL, BOTH);
+    for name in ["passing.0003.png", "passing.0005.exr"] {
+        fs::remove_file(desk.file(name)).unwrap();
+        let made = Command::new("mkfifo").arg(desk.file(name)).status();
+        assert!(made.unwrap().success());
+    }
+    let (status, said) = verify_by(&desk, "timeout 30");
+    assert_eq!(status, Some(1));
+    for file in ["passing.0003.png", "passing.0005.exr"] {
+        let line = format!("{file}: unreadable: it is no regular file; move it away\n");
+        assert!(said.contains(&line), "{said}");
+    }
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_header_that_claims_two_billion_bytes_is_not_believed() {
+    let desk = Desk::new(SMALL, BOTH);
+    // Magic number, version 2, and an attribute of so many bytes.
+    let mut bytes = b"\x76\x2f\x31\x01\x02\0\0\0fingerprint\0string\0".to_vec();
+    bytes.extend(2_000_000_000_u32.to_le_bytes());
+    fs::write(desk.file("passing.0004.exr"), bytes).unwrap();
+    let file = fs::File::options()
+        .append(true)
+        .open(desk.file("passing.0004.exr"));
+    file.unwrap().set_len(2_000_001_000).unwrap();
+    // KiB of addresses, less than the attribute alone would take.
+    let (status, said) = verify_by(&desk, "ulimit -v 1900000; timeout 30");
+    assert_eq!(status, Some(1), "{said}");
+    assert!(said.contains("9 of 10 frames are sound"), "{said}");
+}
+
+#[test]
+fn a_scale_that_no_picture_can_have_is_a_mistake_of_the_call() {
+    let desk = Desk::small("");
+    for command in ["verify", "assemble", "render", "plan"] {
+        let told = desk.call(&[command, "passing.toml", "--scale", "1000"]);
+        assert_eq!(told.status, 2, "{command}: {}", told.stdout);
+        assert!(
+            told.stderr.contains("--scale 1000 makes 64000"),
+            "{}",
+            told.stderr
+        );
+    }
+}
+
+#[test]
+fn every_shot_of_the_call_is_in_the_answer_as_json() {
+    let desk = Desk::small("apng = true");
+    fs::write(desk.path("wrong.toml"), "[camera]\n").unwrap();
+    let answer = |command: &str| -> serde_json::Value {
+        let told = desk.call(&[command, "wrong.toml", "passing.toml", "--json"]);
+        assert_eq!(told.status, 2, "{}", told.stderr);
+        serde_json::from_str(&told.stdout).unwrap()
+    };
+    for command in ["verify", "assemble"] {
+        let answer = answer(command);
+        assert_eq!(answer["shots"][0]["shot"], "wrong.toml");
+        assert!(
+            answer["shots"][0]["error"]
+                .as_str()
+                .unwrap()
+                .contains("[[model]]")
+        );
+        assert_eq!(answer["shots"][1]["shot"], "passing.toml");
+    }
+    // In the way of whoever claims.
+    fs::write(desk.file(".passing.locks"), "").unwrap();
+    let error = answer("assemble")["shots"][1]["error"].clone();
+    assert!(error.as_str().unwrap().contains("cannot lock"), "{error}");
+}

@@ -122,19 +122,6 @@ fn without_ffmpeg_the_rest_is_made_and_its_package_is_named() {
     assert_eq!(desk.names(".tmp"), [""; 0]);
 }
 
-/// Puts a program called ffmpeg into a folder, which gets first in the path.
-#[cfg(unix)]
-fn with_ffmpeg(desk: &Desk, script: &str) -> String {
-    use std::os::unix::fs::PermissionsExt;
-    let folder = desk.path("bin");
-    fs::create_dir_all(&folder).unwrap();
-    let program = folder.join("ffmpeg");
-    fs::write(&program, script).unwrap();
-    fs::set_permissions(&program, fs::Permissions::from_mode(0o755)).unwrap();
-    let path = std::env::var("PATH").unwrap_or_default();
-    format!("{}:{path}", folder.display())
-}
-
 #[cfg(unix)]
 #[test]
 fn an_ffmpeg_that_fails_leaves_no_file_and_its_last_words_are_quoted() {
@@ -144,7 +131,7 @@ fn an_ffmpeg_that_fails_leaves_no_file_and_its_last_words_are_quoted() {
         "#!/bin/sh\ncat > /dev/null\necho 'disk on fire' >&2\nexit 1\n",
         "#!/bin/sh\necho 'disk on fire' >&2\nkill -9 $$\n",
     ] {
-        let path = with_ffmpeg(&desk, script);
+        let path = desk.with_ffmpeg(script);
         let told = desk.call_with_path(&["assemble", "passing.toml"], &path);
         assert_eq!(told.status, 1, "{script}");
         assert!(
@@ -166,7 +153,7 @@ fn a_video_with_fewer_frames_than_went_in_is_not_kept() {
     // It encodes the first five frames and says nothing.
     let script = "#!/bin/sh\nhead -c 61440 | /usr/bin/env -i PATH=/usr/bin:/bin ffmpeg \"$@\"\n\
                   cat > /dev/null\nexit 0\n";
-    let path = with_ffmpeg(&desk, script);
+    let path = desk.with_ffmpeg(script);
     let told = desk.call_with_path(&["assemble", "passing.toml"], &path);
     assert_eq!(told.status, 1);
     assert!(
@@ -175,4 +162,19 @@ fn a_video_with_fewer_frames_than_went_in_is_not_kept() {
         told.stderr
     );
     assert_eq!(desk.names(".mp4"), [""; 0]);
+}
+
+#[cfg(unix)]
+#[test]
+fn a_torn_video_of_an_ffmpeg_that_ends_well_is_not_kept() {
+    let desk = Desk::small("video = \"mp4\"");
+    // The file is its last argument.
+    let script = "#!/bin/sh\ncat > /dev/null\nfor file; do :; done\nprintf torn > \"$file\"\n";
+    let path = desk.with_ffmpeg(script);
+    let told = desk.call_with_path(&["assemble", "passing.toml"], &path);
+    assert_eq!(told.status, 1);
+    let why = "passing.mp4: ffmpeg left a video that ffprobe cannot read";
+    assert!(told.stderr.contains(why), "{}", told.stderr);
+    assert_eq!(desk.names(".mp4"), [""; 0]);
+    assert_eq!(desk.names(".tmp"), [""; 0]);
 }

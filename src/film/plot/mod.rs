@@ -23,7 +23,7 @@ pub use axis::{Axis, Scale, round_up, superscript};
 pub use drawing::{Anchor, Drawing, Group, Mark, Shape, Text};
 pub use inset::{LEAST_INSET, lay_out_inset};
 pub use layout::{Page, lay_out};
-pub use svg::svg;
+pub use svg::{escaped, svg};
 
 /// The look of a page of text, tables and drawings, CSS.
 pub const STYLE: &str = include_str!("page.css");

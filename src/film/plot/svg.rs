@@ -124,7 +124,7 @@ fn hex([r, g, b]: Color) -> String {
 }
 
 /// Text as XML 1.0 can hold it: control characters, which it cannot, become U+FFFD.
-fn escaped(text: &str) -> String {
+pub fn escaped(text: &str) -> String {
     let mut out = String::with_capacity(text.len());
     for character in text.chars() {
         match character {

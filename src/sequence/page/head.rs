@@ -1,21 +1,12 @@
 //! What stands above the frames: which shot, what became of it, and what is wrong.
 
-use super::run::RunFacts;
-use super::view::{State, View, beside};
+use super::super::output::OUTPUTS;
+use super::view::{View, beside};
 use crate::film::plot::STYLE;
 use crate::film::plot::quantity::{bytes, time};
-use crate::queue::{Record, Reel};
+use crate::queue::{Record, Reel, list_of};
 use indexmap::IndexMap;
 use maud::{Markup, PreEscaped, html};
-
-/// What may lie beside the page, by the end of its name.
-const ASSEMBLED: [(&str, &str); 5] = [
-    ("sheet.png", "contact sheet"),
-    ("gif", "GIF"),
-    ("apng", "APNG"),
-    ("mp4", "video"),
-    ("av1.mp4", "AV1 video"),
-];
 
 fn title(reel: &Reel) -> &str {
     reel.shot()
@@ -40,21 +31,21 @@ pub(super) fn head(reel: &Reel) -> Markup {
 }
 
 /// Warnings first, then the counts, and links to what was assembled.
-pub(super) fn opening(reel: &Reel, run: &RunFacts, views: &[View<'_>]) -> Markup {
+pub(super) fn opening(reel: &Reel, views: &[View<'_>]) -> Markup {
     html! {
         header {
             p.kicker { "Frames" }
             h1 { (title(reel)) }
-            (warnings(run, views))
+            (warnings(views))
             p #counts { strong { (counts(views)) } }
-            p.facts { (shot_file(reel)) (when(views)) (seconds(run, views)) (machines(views)) }
+            p.facts { (shot_file(reel)) (when(views)) (seconds(views)) (machines(views)) }
             (assembled(reel))
         }
     }
 }
 
 /// What is amiss, and what the frames' records warn of, each with its frames.
-fn warnings(run: &RunFacts, views: &[View<'_>]) -> Markup {
+fn warnings(views: &[View<'_>]) -> Markup {
     let mut frames: IndexMap<String, Vec<u32>> = IndexMap::new();
     for view in views {
         if view.state.is_amiss() {
@@ -69,10 +60,9 @@ fn warnings(run: &RunFacts, views: &[View<'_>]) -> Markup {
         }
     }
     html! {
-        @if !frames.is_empty() || !run.warnings.is_empty() {
+        @if !frames.is_empty() {
             section.noise.warning aria-label="Warnings" {
                 ul {
-                    @for warning in &run.warnings { li { (warning) } }
                     @for (words, frames) in &frames {
                         li { b { (named(frames)) ":" } " " (words) }
                     }
@@ -132,25 +122,9 @@ fn when(views: &[View<'_>]) -> String {
     }
 }
 
-fn seconds(run: &RunFacts, views: &[View<'_>]) -> String {
-    let total = |rendered: bool| -> f64 {
-        let counted = views
-            .iter()
-            .filter(|v| !rendered || matches!(v.state, State::Rendered { .. }));
-        counted
-            .filter_map(|v| v.record)
-            .map(|record| record.seconds.total())
-            .sum()
-    };
-    let all = time(total(false));
-    match run.seconds {
-        Some(seconds) => format!(
-            "Rendering all frames took {all}; this run took {}, {} of it for its frames. ",
-            time(seconds),
-            time(total(true)),
-        ),
-        None => format!("Rendering all frames took {all}. "),
-    }
+fn seconds(views: &[View<'_>]) -> String {
+    let all: f64 = records(views).map(|record| record.seconds.total()).sum();
+    format!("Rendering all frames took {}. ", time(all))
 }
 
 fn machines(views: &[View<'_>]) -> String {
@@ -175,10 +149,10 @@ fn machines(views: &[View<'_>]) -> String {
 }
 
 fn assembled(reel: &Reel) -> Markup {
-    let files = ASSEMBLED.iter().filter_map(|(suffix, words)| {
-        let name = reel.names.assembled(suffix);
+    let files = OUTPUTS.iter().filter_map(|output| {
+        let name = reel.names.assembled(output.suffix());
         let length = std::fs::metadata(reel.folder.join(&name)).ok()?.len();
-        Some((words, name, length))
+        Some((output.title(), name, length))
     });
     let files: Vec<_> = files.collect();
     html! {
@@ -194,22 +168,9 @@ fn assembled(reel: &Reel) -> Markup {
 
 /// `Frames 3, 7–9`
 fn named(frames: &[u32]) -> String {
-    let mut ranges: Vec<[u32; 2]> = Vec::new();
-    for &frame in frames {
-        match ranges.last_mut() {
-            Some([_, last]) if *last + 1 == frame => *last = frame,
-            _ => ranges.push([frame, frame]),
-        }
-    }
-    let words: Vec<String> = ranges
-        .iter()
-        .map(|[first, last]| match last - first {
-            0 => first.to_string(),
-            _ => format!("{first}–{last}"),
-        })
-        .collect();
+    let list = list_of(frames).replace('-', "–").replace(',', ", ");
     let noun = if frames.len() == 1 { "Frame" } else { "Frames" };
-    format!("{noun} {}", words.join(", "))
+    format!("{noun} {list}")
 }
 
 #[cfg(test)]

@@ -8,6 +8,7 @@
 mod chart;
 mod grid;
 mod head;
+mod key;
 mod player;
 mod run;
 mod table;
@@ -16,40 +17,55 @@ mod view;
 
 pub use run::{Outcome, RunFacts};
 
-use crate::queue::{Reel, write_atomically};
+use super::ledger;
+use crate::queue::{Reel, Stop, write_atomically};
 use maud::{DOCTYPE, html};
 use std::io;
 use std::path::PathBuf;
-use view::View;
+use view::{View, statuses};
 
 /// The page's file name.
 pub const PAGE: &str = "index.html";
 
 /// Writes the page of a reel whose records have been read since the last frame was finished, and
-/// returns where it is.
+/// returns where it is; none if it was asked to stop before.
 ///
 /// # Errors
 /// When it cannot be written. What is wrong with frames stands on the page.
-pub fn write(reel: &Reel, run: &RunFacts) -> io::Result<PathBuf> {
+pub fn write(reel: &Reel, run: &RunFacts, stop: &Stop) -> io::Result<Option<PathBuf>> {
+    let found = statuses(reel);
+    let key = key::key(reel, run, &found);
+    let Some(views) = View::all(reel, run, &found, stop) else {
+        return Ok(None);
+    };
     let path = reel.folder.join(PAGE);
-    write_atomically(&path, text(reel, run).as_bytes())?;
-    Ok(path)
+    write_atomically(&path, text(reel, &views).as_bytes())?;
+    // A page that is not remembered is only written again.
+    let _unremembered = ledger::remember(reel, PAGE, key);
+    Ok(Some(path))
+}
+
+/// Whether the page is there and would tell no more if a run that did this wrote it again: which
+/// takes as long as to read all pictures. That frames which it calls rendered have been kept since
+/// is nothing new.
+pub fn is_fresh(reel: &Reel, run: &RunFacts) -> bool {
+    let kept = run.outcomes.values().all(|o| *o == Outcome::Kept);
+    kept && ledger::holds(reel, PAGE, || key::key(reel, run, &statuses(reel)))
 }
 
 /// The whole HTML file.
-fn text(reel: &Reel, run: &RunFacts) -> String {
-    let views = View::all(reel, run);
+fn text(reel: &Reel, views: &[View<'_>]) -> String {
     let page = html! {
         (DOCTYPE)
         html lang="en" {
             (head::head(reel))
             body {
                 main {
-                    (head::opening(reel, run, &views))
-                    (player::section(reel, &views))
-                    (grid::section(&views))
-                    (chart::section(&views))
-                    (table::section(&views))
+                    (head::opening(reel, views))
+                    (player::section(reel, views))
+                    (grid::section(views))
+                    (chart::section(views))
+                    (table::section(views))
                 }
                 (player::script())
             }

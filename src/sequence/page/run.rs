@@ -7,10 +7,6 @@ use std::collections::BTreeMap;
 pub struct RunFacts {
     /// By number, of the frames that it was asked for.
     pub outcomes: BTreeMap<u32, Outcome>,
-    /// How long it took by the clock on the wall, s.
-    pub seconds: Option<f64>,
-    /// What its caller was told, beside what the frames' records say.
-    pub warnings: Vec<String>,
 }
 
 /// What became of a frame.

@@ -3,8 +3,9 @@
 use super::run::{Outcome, RunFacts};
 use super::thumbnail::{Thumbnail, small};
 use crate::plan::{Facts, facts};
-use crate::queue::{Record, Reel, Status};
+use crate::queue::{Record, Reel, Status, Stop};
 use crate::sequence::read;
+use crate::sequence::verify::is_asked;
 use crate::shot::Format;
 use rayon::prelude::*;
 
@@ -67,21 +68,27 @@ pub(super) struct View<'a> {
 }
 
 impl<'a> View<'a> {
-    /// All frames of a reel, in order.
-    pub(super) fn all(reel: &'a Reel, run: &RunFacts) -> Vec<Self> {
-        let frames = reel.shot().shot.frames;
-        (1..=frames)
-            .into_par_iter()
-            .map(|frame| Self::one(reel, run, frame))
+    /// All frames of a reel, in order, as they were found; none if asked to stop.
+    pub(super) fn all(
+        reel: &'a Reel,
+        run: &RunFacts,
+        found: &[Status],
+        stop: &Stop,
+    ) -> Option<Vec<Self>> {
+        let numbered = found.par_iter().enumerate();
+        numbered
+            .map(|(n, found)| (!is_asked(stop)).then(|| Self::one(reel, run, n as u32 + 1, found)))
             .collect()
     }
 
-    fn one(reel: &'a Reel, run: &RunFacts, frame: u32) -> Self {
+    fn one(reel: &'a Reel, run: &RunFacts, frame: u32, found: &Status) -> Self {
         let shot = reel.shot();
         let still = read(reel, frame);
-        let found = match reel.status(frame, &reel.keys.frame(frame)) {
+        let found = match found {
             Status::Missing => State::Missing,
-            Status::Stale { because } => State::Stale { because },
+            Status::Stale { because } => State::Stale {
+                because: because.clone(),
+            },
             Status::Fresh => match &still {
                 Err(error) => State::Broken {
                     because: error.why.clone(),
@@ -103,10 +110,25 @@ impl<'a> View<'a> {
             state,
             full: (picture.is_some() && browsers_show_it).then(|| beside(&name)),
             picture,
-            record: reel.records.get(&frame),
+            record: fitting(reel, frame),
             facts: facts(shot, frame).ok(),
         }
     }
+}
+
+/// The record of a frame, if it is of the frame as it should be: a run that was killed between a
+/// picture and its record leaves that of an older one.
+pub(super) fn fitting(reel: &Reel, frame: u32) -> Option<&Record> {
+    let record = reel.records.get(&frame)?;
+    (record.fingerprint == reel.keys.frame(frame).fingerprint).then_some(record)
+}
+
+/// What there is of each frame of a reel, in order.
+pub(super) fn statuses(reel: &Reel) -> Vec<Status> {
+    let frames = (1..=reel.shot().shot.frames).into_par_iter();
+    frames
+        .map(|frame| reel.status(frame, &reel.keys.frame(frame)))
+        .collect()
 }
 
 /// Of a frame that is there and as it should be.

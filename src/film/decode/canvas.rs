@@ -2,11 +2,11 @@
 
 use super::{Decoded, Fault, MOST_CHANNELS, exr_fault};
 use crate::film::{self, Developed};
-use exr::block::UncompressedBlock;
-use exr::math::Vec2;
-use exr::meta::attribute::{ChannelDescription, ChannelList, SampleType};
-use exr::meta::{BlockDescription, header::Header};
-use exr::prelude::f16;
+use ::exr::block::UncompressedBlock;
+use ::exr::math::Vec2;
+use ::exr::meta::attribute::{ChannelDescription, ChannelList, SampleType};
+use ::exr::meta::{BlockDescription, header::Header};
+use ::exr::prelude::f16;
 
 /// An EXR's picture as its blocks come.
 pub(super) struct Canvas {
@@ -119,7 +119,7 @@ impl Channel {
     /// Counts a row's values that are not finite, and puts them where they are shown.
     fn put(
         &mut self,
-        values: impl Iterator<Item = exr::error::Result<f32>>,
+        values: impl Iterator<Item = ::exr::error::Result<f32>>,
         pixels: &mut [[f32; 3]],
     ) -> Result<(), Fault> {
         for (value, pixel) in values.zip(pixels) {

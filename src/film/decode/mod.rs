@@ -6,17 +6,17 @@
 
 mod canvas;
 
+use ::exr::block::reader::ChunksReader;
+use ::exr::error::Error as ExrError;
+use ::exr::math::Vec2;
+use ::png::DecodingError;
 use canvas::Canvas;
-use exr::block::reader::ChunksReader;
-use exr::error::Error as ExrError;
-use exr::math::Vec2;
-use png::DecodingError;
-use std::fs::File;
+use std::fs::{self, File};
 use std::io::{self, Cursor, Read};
 use std::path::Path;
 
 /// What a file may have beside its pixels, bytes: the shot's text is at most 4 MiB of it.
-const MOST_METADATA: u64 = 16 << 20;
+pub(super) const MOST_METADATA: u64 = 16 << 20;
 
 /// Channels at most: three colours and four layers.
 const MOST_CHANNELS: usize = 7;
@@ -26,7 +26,7 @@ const MOST_PIXEL: u64 = 2 * 4 * MOST_CHANNELS as u64;
 
 /// What is wrong with a file. Messages continue "FILE: ".
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-pub(super) enum Fault {
+pub enum Fault {
     /// It is not there.
     #[error("missing")]
     Missing,
@@ -59,19 +59,37 @@ fn pixels([width, height]: [usize; 2]) -> String {
 
 /// Pixels of 8 bits, and the channels with values that are not finite, each with how many.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(super) struct Decoded {
-    pub(super) rgb8: Vec<u8>,
-    pub(super) not_finite: Vec<(String, u64)>,
+pub struct Decoded {
+    /// Three bytes a pixel, row by row from the top.
+    pub rgb8: Vec<u8>,
+    /// By name.
+    pub not_finite: Vec<(String, u64)>,
+}
+
+/// Opens a regular file to be read, whoever put it there: a pipe would wait for a writer for ever,
+/// and a device never end.
+///
+/// # Errors
+/// Of the system, and what is no regular file.
+pub fn open(path: &Path) -> io::Result<File> {
+    if !fs::metadata(path)?.is_file() {
+        let why = "it is no regular file; move it away";
+        return Err(io::Error::new(io::ErrorKind::InvalidInput, why));
+    }
+    File::open(path)
 }
 
 /// The bytes of a file, unless it has more than an image of this size can need.
-pub(super) fn read_bytes(path: &Path, size: [u32; 2]) -> Result<Vec<u8>, Fault> {
+///
+/// # Errors
+/// A file that is missing, empty, too long or cannot be read.
+pub fn read_bytes(path: &Path, size: [u32; 2]) -> Result<Vec<u8>, Fault> {
     let most = u64::from(size[0]) * u64::from(size[1]) * MOST_PIXEL + MOST_METADATA;
     let unreadable = |error: io::Error| match error.kind() {
         io::ErrorKind::NotFound => Fault::Missing,
         _ => Fault::Unreadable(error.to_string()),
     };
-    let file = File::open(path).map_err(unreadable)?;
+    let file = open(path).map_err(unreadable)?;
     let mut bytes = Vec::new();
     file.take(most + 1)
         .read_to_end(&mut bytes)
@@ -87,17 +105,20 @@ pub(super) fn read_bytes(path: &Path, size: [u32; 2]) -> Result<Vec<u8>, Fault> 
 }
 
 /// Decodes a PNG of 8-bit RGB, checksums and all.
-pub(super) fn png(bytes: &[u8], size: [u32; 2]) -> Result<Decoded, Fault> {
-    let limits = png::Limits {
+///
+/// # Errors
+/// What is wrong with it.
+pub fn png(bytes: &[u8], size: [u32; 2]) -> Result<Decoded, Fault> {
+    let limits = ::png::Limits {
         // A row or two, and what zlib needs.
         bytes: (64 << 20) + 64 * size[0] as usize,
     };
-    let mut decoder = png::Decoder::new_with_limits(Cursor::new(bytes), limits);
+    let mut decoder = ::png::Decoder::new_with_limits(Cursor::new(bytes), limits);
     decoder.set_ignore_text_chunk(true);
     let mut reader = decoder.read_info().map_err(png_fault)?;
     let info = reader.info();
     check_size([info.width, info.height].map(|side| side as usize), size)?;
-    if (info.color_type, info.bit_depth) != (png::ColorType::Rgb, png::BitDepth::Eight) {
+    if (info.color_type, info.bit_depth) != (::png::ColorType::Rgb, ::png::BitDepth::Eight) {
         return Err(Fault::Damaged(
             "its pixels are not red, green and blue of 8 bits".to_owned(),
         ));
@@ -122,8 +143,11 @@ fn png_fault(error: DecodingError) -> Fault {
 
 /// Decodes an EXR as this program writes it: scan lines of one part, the channels R, G, B, and any
 /// number of others that are only looked through. `encode` is the display's transfer.
-pub(super) fn exr(bytes: &[u8], size: [u32; 2], encode: fn(f64) -> f64) -> Result<Decoded, Fault> {
-    let reader = exr::block::read(Cursor::new(bytes), true).map_err(exr_fault)?;
+///
+/// # Errors
+/// What is wrong with it.
+pub fn exr(bytes: &[u8], size: [u32; 2], encode: fn(f64) -> f64) -> Result<Decoded, Fault> {
+    let reader = ::exr::block::read(Cursor::new(bytes), true).map_err(exr_fault)?;
     let [header] = reader.headers() else {
         let parts = reader.headers().len();
         return Err(Fault::Damaged(format!("it has {parts} parts, not one")));
@@ -166,9 +190,13 @@ fn check_size(found: [usize; 2], expected: [u32; 2]) -> Result<(), Fault> {
 mod tests {
     use super::*;
     use crate::film::{self, Developed, Layers, Metadata, exr::Depth};
-    use crate::spectrum::color_space;
 
     const SIZE: [u32; 2] = [19, 37];
+
+    /// A transfer as displays have it.
+    fn encode(linear: f64) -> f64 {
+        linear.max(0.0).powf(1.0 / 2.2)
+    }
 
     /// A picture of many values, some beyond 1.
     fn linear() -> Developed {
@@ -191,9 +219,9 @@ mod tests {
     #[test]
     fn an_exr_is_shown_as_the_png_of_the_same_light() {
         let developed = linear();
-        let rgb8 = film::png::to_rgb8(&developed, color_space::encode);
+        let rgb8 = film::png::to_rgb8(&developed, encode);
         let bytes = exr_bytes(&developed, Depth::Float, &Layers::default());
-        let shown = exr(&bytes, SIZE, color_space::encode).expect("decodes");
+        let shown = exr(&bytes, SIZE, encode).expect("decodes");
         assert_eq!(shown.rgb8, rgb8);
         assert_eq!(png(&png_bytes(&rgb8), SIZE).expect("decodes"), shown);
     }
@@ -202,9 +230,9 @@ mod tests {
     fn a_half_exr_is_within_a_level_of_the_float_one() {
         // A half has 11 digits: 2⁻¹² of a value near 1 is a sixteenth of a level.
         let developed = linear();
-        let rgb8 = film::png::to_rgb8(&developed, color_space::encode);
+        let rgb8 = film::png::to_rgb8(&developed, encode);
         let bytes = exr_bytes(&developed, Depth::Half, &Layers::default());
-        let shown = exr(&bytes, SIZE, color_space::encode).expect("decodes");
+        let shown = exr(&bytes, SIZE, encode).expect("decodes");
         let apart = shown.rgb8.iter().zip(&rgb8).map(|(a, b)| a.abs_diff(*b));
         assert!(apart.max() <= Some(1));
     }
@@ -222,7 +250,7 @@ mod tests {
         };
         for depth in [Depth::Float, Depth::Half] {
             let bytes = exr_bytes(&developed, depth, &layers);
-            let found = exr(&bytes, SIZE, color_space::encode).expect("decodes");
+            let found = exr(&bytes, SIZE, encode).expect("decodes");
             let expected = match depth {
                 // What a half cannot hold is clamped when it is written, all but NaN.
                 Depth::Half => [("G".to_owned(), 1), ("distance".to_owned(), 1)],
@@ -237,10 +265,10 @@ mod tests {
         let developed = linear();
         let exr_file = exr_bytes(&developed, Depth::Float, &Layers::default());
         for end in 0..exr_file.len() {
-            let cut = exr(&exr_file[..end], SIZE, color_space::encode);
+            let cut = exr(&exr_file[..end], SIZE, encode);
             assert!(cut.is_err(), "{end} of {}", exr_file.len());
         }
-        let png_file = png_bytes(&film::png::to_rgb8(&developed, color_space::encode));
+        let png_file = png_bytes(&film::png::to_rgb8(&developed, encode));
         for end in 0..png_file.len() {
             assert!(
                 png(&png_file[..end], SIZE).is_err(),
@@ -249,7 +277,7 @@ mod tests {
             );
         }
         let most = exr_file.len() - 40;
-        let fault = exr(&exr_file[..most], SIZE, color_space::encode).expect_err("is cut");
+        let fault = exr(&exr_file[..most], SIZE, encode).expect_err("is cut");
         assert_eq!(fault, Fault::Truncated);
         let fault = png(&png_file[..png_file.len() - 40], SIZE).expect_err("is cut");
         assert_eq!(fault, Fault::Truncated);
@@ -259,13 +287,13 @@ mod tests {
     fn a_file_with_any_byte_changed_neither_panics_nor_takes_memory() {
         let developed = linear();
         let exr_file = exr_bytes(&developed, Depth::Float, &Layers::default());
-        let png_file = png_bytes(&film::png::to_rgb8(&developed, color_space::encode));
+        let png_file = png_bytes(&film::png::to_rgb8(&developed, encode));
         let mut refused = [0; 2];
         for value in [0x00, 0x7f, 0x80, 0xff] {
             for at in 0..exr_file.len() {
                 let mut file = exr_file.clone();
                 file[at] = value;
-                refused[0] += usize::from(exr(&file, SIZE, color_space::encode).is_err());
+                refused[0] += usize::from(exr(&file, SIZE, encode).is_err());
             }
             for at in 0..png_file.len() {
                 let mut file = png_file.clone();
@@ -279,12 +307,12 @@ mod tests {
     #[test]
     fn another_size_is_refused_before_anything_is_decoded() {
         let bytes = exr_bytes(&linear(), Depth::Float, &Layers::default());
-        let fault = exr(&bytes, [20, 37], color_space::encode).expect_err("is another");
+        let fault = exr(&bytes, [20, 37], encode).expect_err("is another");
         assert_eq!(
             fault.to_string(),
             "wrong size: 19 x 37 pixels, not 20 x 37 pixels"
         );
-        let bytes = png_bytes(&film::png::to_rgb8(&linear(), color_space::encode));
+        let bytes = png_bytes(&film::png::to_rgb8(&linear(), encode));
         assert!(matches!(png(&bytes, [1, 1]), Err(Fault::Size { .. })));
     }
 }

@@ -1,0 +1,125 @@
+//! What a second call does: the page is written again when it would tell something else, nothing is
+//! claimed where nothing is to be made, and what a killed or stopped call left does no harm.
+
+use super::desk::Desk;
+use std::fs;
+use std::path::Path;
+use std::process::{Command, Stdio};
+use std::time::{Duration, Instant};
+
+const RENDER: [&str; 4] = ["render", "passing.toml", "--progress", "none"];
+
+fn render(desk: &Desk, more: &[&str]) {
+    let told = desk.call(&[&RENDER[..], more].concat());
+    assert_eq!(told.status, 0, "{}", told.stderr);
+}
+
+fn page(desk: &Desk) -> String {
+    fs::read_to_string(desk.file("index.html")).unwrap()
+}
+
+#[test]
+fn a_page_that_would_tell_something_else_is_written_again_though_all_was_kept() {
+    let desk = Desk::small("");
+    render(&desk, &[]);
+    let (first, written) = (page(&desk), fs::metadata(desk.file("index.html")).unwrap());
+    render(&desk, &[]);
+    let again = fs::metadata(desk.file("index.html")).unwrap();
+    assert_eq!(
+        written.modified().unwrap(),
+        again.modified().unwrap(),
+        "nothing is new"
+    );
+
+    let shot = fs::read_to_string(desk.path("passing.toml")).unwrap();
+    let other = shot
+        .replace("A square", "Another")
+        .replace("fps = 24", "fps = 25");
+    fs::write(desk.path("passing.toml"), other).unwrap();
+    render(&desk, &[]);
+    let second = page(&desk);
+    assert!(!first.contains("Another") && second.contains("Another"));
+    assert!(second.contains("25 frames a second"));
+
+    fs::remove_file(desk.file("passing.0004.png")).unwrap();
+    render(&desk, &["--frames", "1-3"]);
+    assert!(second.contains(", 0 missing") && page(&desk).contains(", 1 missing"));
+
+    fs::write(desk.file("index.html"), "another").unwrap();
+    render(&desk, &["--frames", "1-3"]);
+    assert!(page(&desk).contains(", 1 missing"));
+}
+
+/// So it ends well on a disk that has been made read-only since, too.
+#[test]
+fn a_call_with_nothing_to_make_claims_nothing() {
+    let desk = Desk::small("apng = true");
+    render(&desk, &[]);
+    // Where the folder of the claims would be.
+    fs::write(desk.file(".passing.locks"), "").unwrap();
+    render(&desk, &[]);
+    fs::remove_file(desk.file("passing.apng")).unwrap();
+    let told = desk.call(&RENDER);
+    assert_eq!(told.status, 1);
+    assert!(told.stderr.contains("cannot lock"), "{}", told.stderr);
+}
+
+#[test]
+fn what_a_killed_call_left_is_swept_by_assemble_too() {
+    let desk = Desk::small("apng = true");
+    fs::write(desk.file("passing.apng.AbC123.tmp"), "torn").unwrap();
+    assert_eq!(desk.assemble().status, 0);
+    assert_eq!(desk.names(".tmp"), [""; 0]);
+    assert_eq!(desk.findings(), [""; 0]);
+}
+
+/// Waits for something, at most half a minute.
+fn until(what: &str, mut is: impl FnMut() -> bool) {
+    let begin = Instant::now();
+    while !is() {
+        assert!(begin.elapsed() < Duration::from_secs(30), "{what}");
+        std::thread::sleep(Duration::from_millis(10));
+    }
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_call_told_to_stop_while_it_assembles_ends_ffmpeg_and_leaves_nothing() {
+    let desk = Desk::small("page = false\nvideo = \"mp4\"");
+    // The first never reads a byte, the second reads all and never ends.
+    for script in ["exec sleep 60", "cat > /dev/null; exec sleep 60"] {
+        for call in [&RENDER[..], &["assemble", "passing.toml"]] {
+            let pid = desk.path("pid");
+            let _ = fs::remove_file(&pid);
+            let line = format!("#!/bin/sh\necho $$ > {}\n{script}\n", pid.display());
+            let path = desk.with_ffmpeg(&line);
+            let mut child = Command::new(env!("CARGO_BIN_EXE_restframe"))
+                .current_dir(desk.path(""))
+                .args(call)
+                .env("PATH", path)
+                .stderr(Stdio::null())
+                .spawn()
+                .unwrap();
+            let told = || fs::read_to_string(&pid).unwrap_or_default();
+            until("ffmpeg starts", || told().ends_with('\n'));
+            let ffmpeg = told();
+            // Until all frames have gone to it, or as many as the pipe holds.
+            std::thread::sleep(Duration::from_millis(300));
+            let begin = Instant::now();
+            let sent = Command::new("kill").arg(child.id().to_string()).status();
+            assert!(sent.unwrap().success());
+            let ended = child.wait().unwrap();
+            assert_eq!(ended.code(), Some(143), "{script}, {call:?}");
+            // Two seconds are promised.
+            let took = begin.elapsed();
+            assert!(
+                took < Duration::from_secs(2),
+                "{script}, {call:?}: {took:?}"
+            );
+            assert_eq!(desk.names(".tmp"), [""; 0], "{script}, {call:?}");
+            assert_eq!(desk.names(".locks"), [""; 0], "{script}, {call:?}");
+            let ffmpeg = Path::new("/proc").join(ffmpeg.trim());
+            until("ffmpeg ends", || !ffmpeg.exists());
+        }
+    }
+}
