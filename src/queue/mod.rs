@@ -24,6 +24,7 @@ mod manifest;
 mod names;
 mod night;
 mod picture;
+mod plain;
 mod progress;
 mod record;
 mod reel;

@@ -37,9 +37,8 @@ impl Names {
     pub fn frame_of<'a>(&self, name: &'a str) -> Option<(u32, &'a str)> {
         let rest = name.strip_prefix(&self.stem)?.strip_prefix('.')?;
         let (number, extension) = rest.split_once('.')?;
-        let whole = number.len() >= 4 && number.bytes().all(|b| b.is_ascii_digit());
         let known = matches!(extension, "png" | "exr");
-        (whole && known).then_some((number.parse().ok()?, extension))
+        (is_number(number) && known).then_some((number.parse().ok()?, extension))
     }
 
     /// A frame's number as it stands in the names of its files: 0012.
@@ -89,4 +88,9 @@ impl Names {
     pub fn assembled(&self, suffix: &str) -> String {
         format!("{}.{suffix}", self.stem)
     }
+}
+
+/// Whether a name, or a part of it, is a frame's number.
+pub(super) fn is_number(name: &str) -> bool {
+    name.len() >= 4 && name.bytes().all(|byte| byte.is_ascii_digit())
 }
