@@ -43,7 +43,12 @@ pub(super) fn run(arguments: &FinishedArguments) -> Result<(), Failed> {
             worst = worse(worst, failed(&format!("{shot}: {failure}")));
         }
         if arguments.json {
-            reports.push(json!({"shot": path, "made": made, "failures": failures}));
+            let made: Vec<_> = made.iter().map(|file| file.to_string_lossy()).collect();
+            reports.push(json!({
+                "shot": path.to_string_lossy(),
+                "made": made,
+                "failures": failures,
+            }));
         } else {
             for file in &made {
                 print(&file.display().to_string())?;

@@ -25,8 +25,8 @@ pub(super) fn run(arguments: &FinishedArguments) -> Result<(), Failed> {
         }
         if arguments.json {
             reports.push(json!({
-                "shot": path,
-                "folder": reel.folder,
+                "shot": path.to_string_lossy(),
+                "folder": reel.folder.to_string_lossy(),
                 "frames": report.frames,
                 "sound": report.sound(),
                 "findings": report.findings,
