@@ -46,7 +46,7 @@ impl Claim {
             let message = format!("cannot lock {path}: {error}; remove it, or name another folder");
             io::Error::new(error.kind(), message)
         };
-        refuse_link(&folder.join(names.locks())).map_err(explain)?;
+        refuse_link(&folder.join(names.locks()))?;
         loop {
             let file = open(&path).map_err(explain)?;
             match file.try_lock() {
@@ -104,11 +104,11 @@ pub(super) fn knows_no_locks(error: &io::Error) -> bool {
 }
 
 /// Refuses a folder of locks that is elsewhere.
-fn refuse_link(locks: &Path) -> io::Result<()> {
+pub(super) fn refuse_link(locks: &Path) -> io::Result<()> {
     match fs::symlink_metadata(locks) {
         Ok(data) if !data.is_dir() => Err(io::Error::new(
             ErrorKind::NotADirectory,
-            format!("{} is no folder", locks.display()),
+            format!("{} is no folder; remove it", locks.display()),
         )),
         _ => Ok(()),
     }
@@ -283,9 +283,15 @@ mod tests {
             "rows.0001.png.77-0.tmp",
             "rows.0002.png.77-1.tmp",
             "rows.gif.77-2.tmp",
+            "rows.gif.aB3xY9.tmp",
+            "rows.av1.mp4.aB3xY9.tmp",
             "index.html.77-3.tmp",
             "other.0001.png.77-4.tmp",
             "rows.0003.png",
+            "rows.notes.tmp",
+            "rows.gif.old.tmp",
+            "rows.0003.tmp",
+            "rows.notes.aB3xY9.tmp",
         ] {
             fs::write(folder.path().join(name), b"x").expect("writable");
         }
@@ -298,6 +304,10 @@ mod tests {
             "other.0001.png.77-4.tmp",
             "rows.0002.png.77-1.tmp",
             "rows.0003.png",
+            "rows.0003.tmp",
+            "rows.gif.old.tmp",
+            "rows.notes.aB3xY9.tmp",
+            "rows.notes.tmp",
         ];
         assert_eq!(left, kept);
     }
