@@ -2,7 +2,7 @@
 //! ends.
 
 use super::claim::knows_no_locks;
-use super::manifest::Record;
+use super::manifest::{Found, Record};
 use super::names::Names;
 use super::plain::open_plain;
 use super::shard::Shard;
@@ -57,6 +57,16 @@ impl Ledger {
     pub(super) fn append(&self, record: &Record) -> io::Result<()> {
         let line = serde_json::to_string(record).map_err(io::Error::from)?;
         self.add(&line)
+    }
+
+    /// Appends lines for frames that were found without a record.
+    ///
+    /// # Errors
+    /// As [`append`](Self::append).
+    pub(super) fn append_found(&self, found: &[Found]) -> io::Result<()> {
+        let lines = found.iter().map(serde_json::to_string);
+        let lines = lines.collect::<Result<Vec<_>, _>>()?;
+        self.add(&lines.join("\n"))
     }
 
     fn add(&self, line: &str) -> io::Result<()> {
