@@ -46,6 +46,7 @@ pub use manifest::{FileRecord, Record, Seconds, read_records};
 pub use names::{ASSEMBLED, Names, SEQUENCE};
 pub use night::Night;
 pub use picture::{Pictures, Taken, pictures};
+pub use plain::open_plain;
 pub use progress::{Mode, Progress, Results};
 pub use record::frame_effects;
 pub use reel::{Glance, Reel, ReelError, Status};

@@ -5,15 +5,8 @@ use crate::shot::Shot;
 /// The claim under which a sequence is assembled.
 pub const SEQUENCE: &str = "sequence";
 
-/// What the names of assembled files end in: what can be asked for, and the list of what was made.
-pub const ASSEMBLED: [&str; 6] = [
-    "sheet.png",
-    "gif",
-    "apng",
-    "mp4",
-    "av1.mp4",
-    "sequence.jsonl",
-];
+/// What the names of assembled files end in.
+pub const ASSEMBLED: [&str; 5] = ["sheet.png", "gif", "apng", "mp4", "av1.mp4"];
 
 /// The names of one shot's files, all in one folder.
 #[derive(Debug, Clone, PartialEq, Eq)]

@@ -5,11 +5,12 @@ use std::fs::{self, File, OpenOptions};
 use std::io::{self, ErrorKind};
 use std::path::Path;
 
-/// Opens the plain file at a path; made, if the options say so.
+/// Opens the plain file at a path; made, if the options say so. Whoever exchanges it for a link in
+/// just this moment is found out, though the link may have been opened; nothing is written then.
 ///
 /// # Errors
 /// Of the kind `AlreadyExists`, if something else is there; else as [`OpenOptions::open`].
-pub(super) fn open_plain(path: &Path, options: &OpenOptions) -> io::Result<File> {
+pub fn open_plain(path: &Path, options: &OpenOptions) -> io::Result<File> {
     refuse_others(path)?;
     let file = options.open(path)?;
     // A link that was put there meanwhile.

@@ -70,7 +70,7 @@ fn names_that_are_no_text_are_rendered_and_told_with_what_of_them_is() {
     }
     for (call, status) in [
         ("render --frames 1 --json", 0),
-        ("assemble --json", 1),
+        ("assemble --json", 0),
         ("verify --json", 1),
         ("plan --json", 0),
     ] {
