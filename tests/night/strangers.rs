@@ -73,6 +73,7 @@ fn names_that_are_no_text_are_rendered_and_told_with_what_of_them_is() {
         ("assemble --json", 0),
         ("verify --json", 1),
         ("plan --json", 0),
+        ("check --json", 0),
     ] {
         let mut command = desk.command(call);
         let outcome = Outcome::of(command.arg(name).output().unwrap());
