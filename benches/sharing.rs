@@ -8,7 +8,7 @@ mod shell;
 use divan::Bencher;
 use rayon::prelude::*;
 use restframe::film::Film;
-use restframe::queue::{Prepared, pictures};
+use restframe::queue::{Prepared, Taken, pictures};
 use restframe::render::{Member, Options, Watch, film_bytes, render, render_together};
 use restframe::scene::Scene;
 use restframe::trace::Stage;
@@ -154,12 +154,17 @@ fn time_ramp(frames: u32) {
     let resolve = |frame, earlier: Option<&Scene>| {
         Scene::resolve(&shot, &library, frame, earlier).expect("it resolves")
     };
-    let encode = |frame, scene: &Scene, film: &Film| {
-        let files = pictures(&shot, frame, scene, film, -9.3, 16).expect("it can be encoded");
-        files.files[0].1.len()
-    };
     let first = resolve(1, None);
     let stage = Stage::build(&first.geometry, None);
+    let encode = |frame, scene: &Scene, film: &Film| {
+        let taken = Taken {
+            exposure_stops: -9.3,
+            samples: 16,
+            fingerprint: None,
+        };
+        let files = pictures(&shot, frame, scene, &stage, film, taken);
+        files.expect("it can be encoded").files[0].1.len()
+    };
 
     let begun = Instant::now();
     let mut together = Vec::new();

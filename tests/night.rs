@@ -22,3 +22,5 @@ mod room;
 mod shards;
 #[path = "night/signals.rs"]
 mod signals;
+#[path = "night/strangers.rs"]
+mod strangers;

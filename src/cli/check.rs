@@ -25,7 +25,7 @@ pub(super) fn run(shots: &[PathBuf], as_json: bool) -> Result<(), Failed> {
             Err(mistakes) => {
                 wrong = true;
                 if as_json {
-                    let report = json!({"shot": path, "ok": false, "mistakes": mistakes.json()});
+                    let report = json!({"shot": path.to_string_lossy(), "ok": false, "mistakes": mistakes.json()});
                     reports.push(report);
                 } else {
                     mistaken(&mistakes);
@@ -46,7 +46,7 @@ fn sound(prepared: &Prepared) -> serde_json::Value {
         .map(|(file, warning)| format!("{}: {warning}", file.display()))
         .collect();
     json!({
-        "shot": prepared.shot.path,
+        "shot": prepared.shot.path.to_string_lossy(),
         "ok": true,
         "frames": prepared.shot.shot.frames,
         "mistakes": [],

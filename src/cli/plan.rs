@@ -131,7 +131,7 @@ fn totals(reel: &Reel, planned: &[Planned], most: usize) -> Totals {
         missing: count(|status| *status == Status::Missing),
         seconds: planned.iter().map(|p| p.seconds).sum(),
         measured: planned.iter().all(|p| p.estimate.measured),
-        memory_bytes: memory_bytes(reel, together as u64),
+        memory_bytes: memory_bytes(reel, together, rayon::current_num_threads()),
         disk_bytes: frame_bytes(reel).saturating_mul((planned.len() - fresh) as u64),
     }
 }

@@ -3,7 +3,7 @@
 use super::{Failed, ProbeArguments, failed, mistaken, misused, print, print_json};
 use crate::film::plot::{Page, lay_out, svg};
 use crate::probe::{Probe, ProbeNode, effects_at, plot, probe, wide_band};
-use crate::queue::{Prepared, write_atomically};
+use crate::queue::{Names, Prepared, write_atomically};
 use crate::render::{View, motion_mistake};
 use crate::scene::Scene;
 use crate::shot::SensorColor;
@@ -52,7 +52,8 @@ pub(super) fn run(arguments: &ProbeArguments) -> Result<(), Failed> {
     let stops = exposing.stops(frame, shot.shot.frames);
     let answer = probe(shot, frame, pixel, &view, &scene, stops);
     if let Some(file) = &arguments.plot {
-        let title = shot.shot.title.clone().unwrap_or_else(|| prepared.stem());
+        let stem = || Names::new(shot).stem;
+        let title = shot.shot.title.clone().unwrap_or_else(stem);
         let wide = wide_band(shot, &answer, &view, &scene);
         let plot = plot(&title, shot.sensor.window, &answer, &wide);
         let text = svg(&lay_out(&plot, PAGE));

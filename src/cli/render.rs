@@ -3,8 +3,8 @@
 use super::finish::Finisher;
 use super::{FAILURE, Failed, ProgressMode, RenderArguments, failed, mistaken, misused, say};
 use crate::queue::{
-    Force, FrameList, Job, Night, Prepared, Progress, ReelError, Request, Resolved, Results, Stop,
-    choose_shard, list_of,
+    Force, FrameList, Job, Names, Night, Prepared, Progress, Reel, Request, Resolved, Results,
+    Stop, choose_shard, list_of,
 };
 use crate::shot::{self, LARGEST_SIDE, Mistakes, Shot};
 use std::collections::HashMap;
@@ -32,7 +32,10 @@ pub(super) fn run(arguments: &RenderArguments) -> Result<(), Failed> {
         None => done,
     };
     progress.end(done.as_ref().map_or_else(|Failed(status)| *status, |()| 0));
-    done
+    match progress.trouble() {
+        Some(error) if done.is_ok() => Err(failed(&format!("standard output: {error}"))),
+        _ => done,
+    }
 }
 
 /// So many threads; 0 for one a processor.
@@ -103,18 +106,19 @@ fn read(
         .iter()
         .map(|shot| choose(shot, request, progress))
         .collect::<Result<Vec<_>, Failed>>()?;
-    let open = |(shot, frames): (&Shot, Vec<u32>)| open(shot, request, &frames, progress);
-    let opened = sound(shots.iter().zip(chosen).map(open), &mut wrong);
-    let all = opened.len();
-    let mut jobs: Vec<Job> = opened.into_iter().flatten().collect();
+    let reel = |(shot, frames): (&Shot, Vec<u32>)| Ok((Reel::new(shot, request)?, frames));
+    let mut reels = sound(shots.iter().zip(chosen).map(reel), &mut wrong);
+    if let Some(shard) = arguments.shard {
+        choose_shard(&mut reels, shard);
+    }
+    let all = reels.len();
+    let open = |(reel, frames)| open(reel, frames, progress);
+    let mut jobs: Vec<Job> = reels.into_iter().filter_map(open).collect();
     let closed = if jobs.len() < all {
         Closed::Some
     } else {
         Closed::None
     };
-    if let Some(shard) = arguments.shard {
-        choose_shard(&mut jobs, shard);
-    }
     sound(jobs.iter_mut().map(|job| job.prepare(force)), &mut wrong);
     for prepared in jobs.iter().filter_map(Job::prepared) {
         for warning in warnings(prepared) {
@@ -146,7 +150,7 @@ fn same_folder(shots: &[Shot]) -> Option<Failed> {
     let mut seen = HashMap::new();
     shots.iter().find_map(|shot| {
         let path = shot.path.display().to_string();
-        let other = seen.insert(shot.path.file_stem(), path.clone())?;
+        let other = seen.insert(Names::new(shot).stem, path.clone())?;
         Some(misused(&format!(
             "{other} and {path} would write the same images; rename one, or render them apart with --out"
         )))
@@ -154,21 +158,11 @@ fn same_folder(shots: &[Shot]) -> Option<Failed> {
 }
 
 /// The job of a shot, if its folder can be read.
-fn open(
-    shot: &Shot,
-    request: &Request,
-    frames: &[u32],
-    progress: &Progress,
-) -> Result<Option<Job>, Mistakes> {
-    match Job::open(shot, request, frames) {
-        Ok(job) => Ok(Some(job)),
-        Err(ReelError::Mistakes(mistakes)) => Err(*mistakes),
-        Err(error @ ReelError::Folder { .. }) => {
-            let path = shot.path.display();
-            progress.error(&format!("{path}: {error}"));
-            Ok(None)
-        }
-    }
+fn open(reel: Reel, frames: Vec<u32>, progress: &Progress) -> Option<Job> {
+    let path = reel.shot().path.display().to_string();
+    let job = Job::new(reel, &frames);
+    job.map_err(|error| progress.error(&format!("{path}: {error}")))
+        .ok()
 }
 
 /// The frames asked for that a shot has.

@@ -3,7 +3,7 @@
 use super::render::{check_scale, pool, warn};
 use super::{Failed, StudyArguments, failed, mistaken, misused, print, say};
 use crate::plan;
-use crate::queue::{FrameList, Prepared, Request, options, write_atomically};
+use crate::queue::{FrameList, Names, Prepared, Request, options, write_atomically};
 use crate::render::{Options, motion_mistake};
 use crate::study::{self, StudyError, report};
 use std::path::{Path, PathBuf};
@@ -21,7 +21,7 @@ pub(super) fn run(arguments: &StudyArguments) -> Result<(), Failed> {
         warn(&prepared);
         let frame = frame(&prepared, arguments.frame)?;
         let options = size(&prepared, arguments)?;
-        let folder = arguments.out.join(prepared.stem());
+        let folder = arguments.out.join(Names::new(&prepared.shot).stem);
         let scratch = scratch(&folder)?;
         let request = study::Request {
             frame,

@@ -5,8 +5,11 @@
 //! the lock on the removed file sees that it no longer stands at its path, and takes the new one.
 //! Where the file system knows no locks, nothing is claimed, and two processes may do the same work
 //! twice; what they write is whole all the same.
+//!
+//! Since giving up removes files, none is touched outside the shot's folder: links are refused.
 
-use super::names::Names;
+use super::names::{Names, SEQUENCE, is_number};
+use super::plain::{is_real_folder, open_plain};
 use std::fs::{self, File, OpenOptions, TryLockError};
 use std::io::{self, ErrorKind};
 use std::path::{Path, PathBuf};
@@ -43,6 +46,7 @@ impl Claim {
             let message = format!("cannot lock {path}: {error}; remove it, or name another folder");
             io::Error::new(error.kind(), message)
         };
+        refuse_link(&folder.join(names.locks()))?;
         loop {
             let file = open(&path).map_err(explain)?;
             match file.try_lock() {
@@ -51,7 +55,8 @@ impl Claim {
                 }
                 Ok(()) => {}
                 Err(TryLockError::WouldBlock) => return Ok(None),
-                Err(TryLockError::Error(error)) if error.kind() == ErrorKind::Unsupported => {
+                Err(TryLockError::Error(error)) if knows_no_locks(&error) => {
+                    remove(&path);
                     return Ok(Some(Self(None)));
                 }
                 Err(TryLockError::Error(error)) => return Err(explain(error)),
@@ -67,13 +72,45 @@ impl Claim {
 
 impl Drop for Held {
     fn drop(&mut self) {
-        // Another machine may have cleaned up; the lock itself goes with the file.
-        let _ = fs::remove_file(&self.path);
-        if let Some(folder) = self.path.parent() {
-            // Only the last claim's succeeds.
-            let _ = fs::remove_dir(folder);
-        }
+        remove(&self.path);
         let _ = self.file.unlock();
+    }
+}
+
+/// Removes the file of a lock, and the folder after the last.
+fn remove(path: &Path) {
+    // Another machine may have cleaned up; the lock itself goes with the file.
+    let _ = fs::remove_file(path);
+    if let Some(folder) = path.parent() {
+        // Only the last claim's succeeds.
+        let _ = fs::remove_dir(folder);
+    }
+}
+
+/// Whether locking failed because the file system knows no locks, or, of a network, because nobody
+/// there keeps them.
+pub(super) fn knows_no_locks(error: &io::Error) -> bool {
+    /// ENOLCK, which has no [`ErrorKind`].
+    const NO_LOCKS: Option<i32> = if cfg!(any(target_os = "linux", target_os = "android")) {
+        Some(37)
+    } else if cfg!(unix) {
+        // The BSDs and macOS.
+        Some(77)
+    } else {
+        None
+    };
+    let number = error.raw_os_error();
+    error.kind() == ErrorKind::Unsupported || number.is_some() && number == NO_LOCKS
+}
+
+/// Refuses a folder of locks that is elsewhere.
+pub(super) fn refuse_link(locks: &Path) -> io::Result<()> {
+    match fs::symlink_metadata(locks) {
+        Ok(data) if !data.is_dir() => Err(io::Error::new(
+            ErrorKind::NotADirectory,
+            format!("{} is no folder; remove it", locks.display()),
+        )),
+        _ => Ok(()),
     }
 }
 
@@ -84,14 +121,14 @@ fn open(path: &Path) -> io::Result<File> {
     let mut options = OpenOptions::new();
     options.write(true).create(true).truncate(false);
     for _ in 0..ATTEMPTS {
-        match options.open(path) {
+        match open_plain(path, &options) {
             Err(error) if error.kind() == ErrorKind::NotFound => {
                 fs::create_dir_all(path.parent().unwrap_or(Path::new(".")))?;
             }
             result => return result,
         }
     }
-    options.open(path)
+    open_plain(path, &options)
 }
 
 /// Whether an open file is still the one at its path.
@@ -99,7 +136,7 @@ fn open(path: &Path) -> io::Result<File> {
 fn stands_at(file: &File, path: &Path) -> bool {
     use std::os::unix::fs::MetadataExt;
     let identity = |data: fs::Metadata| (data.dev(), data.ino());
-    match (file.metadata(), fs::metadata(path)) {
+    match (file.metadata(), fs::symlink_metadata(path)) {
         (Ok(open), Ok(there)) => identity(open) == identity(there),
         _ => false,
     }
@@ -124,8 +161,14 @@ pub fn sweep(folder: &Path, names: &Names) {
             let _ = fs::remove_file(folder.join(name));
         }
     }
-    for what in file_names(&folder.join(names.locks())) {
-        drop(Claim::take(folder, names, &what));
+    let locks = folder.join(names.locks());
+    if !is_real_folder(&locks) {
+        return;
+    }
+    for what in file_names(&locks) {
+        if is_number(&what) || what == SEQUENCE {
+            drop(Claim::take(folder, names, &what));
+        }
     }
 }
 
@@ -157,6 +200,55 @@ mod tests {
         drop(first);
         assert!(take(7).is_some());
         assert_eq!(file_names(folder.path()), [""; 0]);
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn no_link_is_followed_to_files_elsewhere() {
+        use std::os::unix::fs::symlink;
+        let [folder, victim] = [0, 1].map(|_| tempfile::tempdir().expect("scratch folder"));
+        for name in ["0001", "sequence", "letter"] {
+            fs::write(victim.path().join(name), b"dear").expect("writable");
+        }
+        let locks = folder.path().join(names().locks());
+        symlink(victim.path(), &locks).expect("linkable");
+        sweep(folder.path(), &names());
+        let refused = Claim::frame(folder.path(), &names(), 1).expect_err("a link");
+        assert!(refused.to_string().contains("is no folder"), "{refused}");
+        assert_eq!(file_names(victim.path()).len(), 3);
+        fs::remove_file(&locks).expect("there");
+        fs::create_dir(&locks).expect("writable");
+        symlink(victim.path().join("0001"), locks.join("0001")).expect("linkable");
+        symlink(victim.path().join("new"), locks.join("0002")).expect("linkable");
+        for frame in [1, 2] {
+            let refused = Claim::frame(folder.path(), &names(), frame).expect_err("a link");
+            assert!(refused.to_string().contains("remove it"), "{refused}");
+        }
+        assert_eq!(file_names(victim.path()).len(), 3);
+    }
+
+    #[test]
+    fn of_the_locks_folder_only_locks_are_swept() {
+        let folder = tempfile::tempdir().expect("scratch folder");
+        let locks = folder.path().join(names().locks());
+        fs::create_dir(&locks).expect("writable");
+        for name in ["0001", "12345", "sequence", "letter", "001"] {
+            fs::write(locks.join(name), b"").expect("writable");
+        }
+        sweep(folder.path(), &names());
+        let mut left = file_names(&locks);
+        left.sort();
+        assert_eq!(left, ["001", "letter"]);
+    }
+
+    #[cfg(target_os = "linux")]
+    #[test]
+    fn a_network_without_a_keeper_of_locks_knows_no_locks() {
+        // errno(3): ENOLCK, EOPNOTSUPP, EACCES.
+        for (number, none) in [(37, true), (95, true), (13, false)] {
+            let error = io::Error::from_raw_os_error(number);
+            assert_eq!(knows_no_locks(&error), none, "{error}");
+        }
     }
 
     /// The unlink race: without the look at the path two threads come to hold one claim.
@@ -191,9 +283,15 @@ mod tests {
             "rows.0001.png.77-0.tmp",
             "rows.0002.png.77-1.tmp",
             "rows.gif.77-2.tmp",
+            "rows.gif.aB3xY9.tmp",
+            "rows.av1.mp4.aB3xY9.tmp",
             "index.html.77-3.tmp",
             "other.0001.png.77-4.tmp",
             "rows.0003.png",
+            "rows.notes.tmp",
+            "rows.gif.old.tmp",
+            "rows.0003.tmp",
+            "rows.notes.aB3xY9.tmp",
         ] {
             fs::write(folder.path().join(name), b"x").expect("writable");
         }
@@ -206,6 +304,10 @@ mod tests {
             "other.0001.png.77-4.tmp",
             "rows.0002.png.77-1.tmp",
             "rows.0003.png",
+            "rows.0003.tmp",
+            "rows.gif.old.tmp",
+            "rows.notes.aB3xY9.tmp",
+            "rows.notes.tmp",
         ];
         assert_eq!(left, kept);
     }

@@ -5,6 +5,7 @@
 //! effects, else of any of this shot, else of the other shots below the same folder, else by a guess.
 
 use super::manifest::{Record, read_records};
+use super::memory::image_bytes;
 use super::names::Names;
 use super::reel::Reel;
 use crate::plan::{Called, Picture};
@@ -213,21 +214,12 @@ pub fn frame_bytes(reel: &Reel) -> u64 {
     output.formats.iter().map(of_format).sum()
 }
 
-/// Bytes of memory that rendering takes: the films of as many frames as are in work at once, one of
-/// them as it is developed and encoded, and the meshes.
-pub fn memory_bytes(reel: &Reel, films: u64) -> u64 {
-    let shot = reel.shot();
-    let layers = match shot.output.formats.contains(&Format::Exr) {
-        true => shot.output.layers.len() as u64,
-        false => 0,
-    };
-    let film = 12 + 4 * layers;
-    // Developed values, bytes of a picture and the encoder's copy of them.
-    let developed = 12 + 3 + 16 + 4 * layers;
-    let pictures = pixels(reel.keys.picture()).saturating_mul(film * films + developed);
-    let meshes = MESH_FACTOR.saturating_mul(model_bytes(shot));
+/// Bytes of memory that rendering takes: the images of as many frames as are in work at once, on so
+/// many threads, and the meshes.
+pub fn memory_bytes(reel: &Reel, films: usize, threads: usize) -> u64 {
+    let meshes = MESH_FACTOR.saturating_mul(model_bytes(reel.shot()));
     PROGRAM_BYTES
-        .saturating_add(pictures)
+        .saturating_add(image_bytes(&reel.options, films, threads))
         .saturating_add(meshes)
 }
 

@@ -2,6 +2,7 @@
 
 use super::deed::Deed;
 use serde::Serialize;
+use std::borrow::Cow;
 use std::path::{Path, PathBuf};
 
 /// Version of what the events say.
@@ -14,24 +15,24 @@ pub(super) enum Event<'a> {
     /// The first: what is asked for.
     Start {
         schema_version: u32,
-        shots: &'a [PathBuf],
+        shots: Vec<Cow<'a, str>>,
         frames: u64,
     },
     /// A frame is settled.
     Frame {
-        shot: &'a Path,
+        shot: Cow<'a, str>,
         frame: u32,
         status: &'static str,
         because: Option<&'a str>,
         seconds: f64,
-        files: &'a [PathBuf],
+        files: Vec<Cow<'a, str>>,
     },
     /// Something that the pictures' viewer should know.
     Warning { message: &'a str },
     /// Something that keeps frames from being there.
     Error { message: &'a str },
     /// A file was made of finished frames.
-    Assembled { file: &'a Path },
+    Assembled { file: Cow<'a, str> },
     /// The last: how it ended.
     Summary(Summary),
 }
@@ -51,27 +52,34 @@ impl<'a> Event<'a> {
     pub(super) fn start(shots: &'a [PathBuf], frames: u64) -> Self {
         Self::Start {
             schema_version: SCHEMA_VERSION,
-            shots,
+            shots: texts(shots),
             frames,
         }
     }
 
     pub(super) fn frame(shot: &'a Path, frame: u32, deed: &'a Deed, files: &'a [PathBuf]) -> Self {
         Self::Frame {
-            shot,
+            shot: shot.to_string_lossy(),
             frame,
             status: deed.word(),
             because: deed.because(),
             seconds: deed.seconds(),
-            files,
+            files: texts(files),
         }
+    }
+
+    pub(super) fn assembled(file: &'a Path) -> Self {
+        let file = file.to_string_lossy();
+        Self::Assembled { file }
     }
 
     /// The object on one line.
     pub(super) fn line(&self) -> String {
-        // Paths that are no text have no JSON.
-        serde_json::to_string(self).unwrap_or_else(|error| {
-            serde_json::json!({"event": "error", "message": error.to_string()}).to_string()
-        })
+        serde_json::to_string(self).expect("texts and numbers have JSON")
     }
+}
+
+/// Paths as texts, which JSON wants; bytes that are none are replaced.
+fn texts(paths: &[PathBuf]) -> Vec<Cow<'_, str>> {
+    paths.iter().map(|path| path.to_string_lossy()).collect()
 }

@@ -1,21 +1,26 @@
 //! A shot of the call: which of its frames are there, and what a run did about them.
 
 use super::batch::Task;
+use super::claim::refuse_link;
 use super::claim::sweep;
 use super::cost::Costs;
 use super::deed::Deed;
 use super::ledger::Ledger;
+use super::manifest::Found;
+use super::memory::check_memory;
 use super::record::frame_effects;
 use super::reel::{Glance, Reel, ReelError, Status};
 use super::shard::Shard;
-use super::shots::{Exposing, Prepared, Request, check_memory, options};
+use super::shots::{Exposing, Prepared, Request};
 use super::write::check_writable;
 use crate::plan::FrameKey;
 use crate::render::Options;
 use crate::scene::Scene;
 use crate::shot::{Mistakes, Shot};
 use crate::trace::Stage;
+use rayon::prelude::*;
 use std::collections::{BTreeMap, HashMap};
+use std::io;
 use std::path::PathBuf;
 
 /// Which frames of those chosen are rendered.
@@ -68,8 +73,18 @@ impl Job {
     /// # Errors
     /// Files of the shot or of the folder that cannot be read.
     pub fn open(shot: &Shot, request: &Request, frames: &[u32]) -> Result<Self, ReelError> {
-        let reel = Reel::open(shot, request)?;
-        let chosen = frames.iter().map(|&frame| {
+        let reel = Reel::new(shot, request);
+        Self::new(reel.map_err(|m| ReelError::Mistakes(Box::new(m)))?, frames)
+    }
+
+    /// The frames chosen of a reel, whose folder is looked at now.
+    ///
+    /// # Errors
+    /// A folder that cannot be read.
+    pub fn new(mut reel: Reel, frames: &[u32]) -> Result<Self, ReelError> {
+        reel.refresh()?;
+        // All at once: those without a record are decoded.
+        let chosen = frames.par_iter().map(|&frame| {
             let key = reel.keys.frame(frame);
             Chosen {
                 frame,
@@ -80,7 +95,7 @@ impl Job {
         });
         Ok(Self {
             chosen: chosen.collect(),
-            options: options(shot, request),
+            options: reel.options.clone(),
             reel,
             deeds: BTreeMap::new(),
             halted: None,
@@ -132,11 +147,25 @@ impl Job {
     }
 
     /// Makes the folder ready, if a frame is to be rendered; where it cannot be written to, or the
-    /// images cannot be held, the job is halted.
+    /// images cannot be held, the job is halted. What was found without a record is written down.
     pub fn furnish(&mut self, shard: Option<Shard>) {
         if self.prepared.is_some() {
             self.halted = self.furnished(shard).err();
         }
+        let fresh = self.chosen.iter().filter(|c| c.status == Status::Fresh);
+        let found = fresh.filter_map(|chosen| self.reel.found(chosen.frame, &chosen.key));
+        let found: Vec<Found> = found.collect();
+        if !found.is_empty() && self.halted.is_none() {
+            // The pictures are there all the same.
+            let _unwritten = self
+                .open_ledger(shard)
+                .map(|ledger| ledger.append_found(&found));
+        }
+    }
+
+    fn open_ledger(&self, shard: Option<Shard>) -> io::Result<Ledger> {
+        let Reel { folder, names, .. } = &self.reel;
+        Ledger::open(folder, names, shard, self.reel.shot())
     }
 
     fn furnished(&mut self, shard: Option<Shard>) -> Result<(), String> {
@@ -147,8 +176,9 @@ impl Job {
             format!("cannot make {folder}: {error}; name another folder with --out")
         })?;
         check_writable(folder, &names.frame(1, "png")).map_err(|error| error.to_string())?;
+        refuse_link(&folder.join(names.locks())).map_err(|error| error.to_string())?;
         sweep(folder, names);
-        let ledger = Ledger::open(folder, names, shard, self.reel.shot());
+        let ledger = self.open_ledger(shard);
         self.ledger = Some(ledger.map_err(|error| error.to_string())?);
         Ok(())
     }
@@ -184,13 +214,10 @@ impl Job {
     }
 
     /// Whether another process made a frame what it should be since it was looked at.
-    pub(super) fn came_true(&mut self, task: &Task) -> bool {
-        if self.reel.glance(task.frame) == task.glance {
-            return false;
-        }
-        // A manifest that cannot be read any more tells nothing; the files still do.
-        let _ = self.reel.refresh();
-        self.reel.status(task.frame, &task.key) == Status::Fresh
+    pub(super) fn came_true(&self, task: &Task) -> bool {
+        // Manifests are not read again, frame after frame: the files tell enough.
+        self.reel.glance(task.frame) != task.glance
+            && self.reel.status(task.frame, &task.key) == Status::Fresh
     }
 
     /// Paths of a frame's files.
@@ -230,13 +257,15 @@ impl Job {
     }
 }
 
-/// Leaves each job the frames of one shard.
-pub fn choose_shard(jobs: &mut [Job], shard: Shard) {
-    let all = jobs.iter().flat_map(|job| &job.chosen);
-    let mut ours = shard
-        .choose(all.map(|chosen| chosen.key.trace.as_str()))
-        .into_iter();
-    for job in jobs {
-        job.chosen.retain(|_| ours.next() == Some(true));
+/// Leaves each reel, of the frames chosen, those of one shard. Folders are not looked at: whatever a
+/// machine finds there, all deal alike.
+pub fn choose_shard(reels: &mut [(Reel, Vec<u32>)], shard: Shard) {
+    let trace = |reel: &Reel, frame: &u32| reel.keys.frame(*frame).trace;
+    let all = reels.iter();
+    let traces = all.flat_map(|(reel, frames)| frames.iter().map(|frame| trace(reel, frame)));
+    let traces: Vec<String> = traces.collect();
+    let mut ours = shard.choose(traces.iter().map(String::as_str)).into_iter();
+    for (_, frames) in reels {
+        frames.retain(|_| ours.next() == Some(true));
     }
 }

@@ -1,8 +1,10 @@
 //! Writing a manifest: a line is there whole or not at all, whoever else writes and however the run
 //! ends.
 
-use super::manifest::Record;
+use super::claim::knows_no_locks;
+use super::manifest::{Found, Record};
 use super::names::Names;
+use super::plain::open_plain;
 use super::shard::Shard;
 use super::write::explain;
 use crate::shot::Shot;
@@ -36,7 +38,7 @@ impl Ledger {
         let opening = json!({
             "manifest": MANIFEST,
             "stem": names.stem,
-            "shot": shot.path,
+            "shot": shot.path.to_string_lossy(),
             "version": env!("CARGO_PKG_VERSION"),
         });
         let ledger = Self {
@@ -57,6 +59,16 @@ impl Ledger {
         self.add(&line)
     }
 
+    /// Appends lines for frames that were found without a record.
+    ///
+    /// # Errors
+    /// As [`append`](Self::append).
+    pub(super) fn append_found(&self, found: &[Found]) -> io::Result<()> {
+        let lines = found.iter().map(serde_json::to_string);
+        let lines = lines.collect::<Result<Vec<_>, _>>()?;
+        self.add(&lines.join("\n"))
+    }
+
     fn add(&self, line: &str) -> io::Result<()> {
         self.add_locked(line)
             .map_err(|error| explain(&self.path, &error))
@@ -64,13 +76,10 @@ impl Ledger {
 
     fn add_locked(&self, line: &str) -> io::Result<()> {
         let mut options = OpenOptions::new();
-        let mut file = options
-            .read(true)
-            .append(true)
-            .create(true)
-            .open(&self.path)?;
+        options.read(true).append(true).create(true);
+        let mut file = open_plain(&self.path, &options)?;
         match file.lock() {
-            Err(error) if error.kind() != io::ErrorKind::Unsupported => return Err(error),
+            Err(error) if !knows_no_locks(&error) => return Err(error),
             _ => {}
         }
         let length = file.seek(SeekFrom::End(0))?;

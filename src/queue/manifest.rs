@@ -6,12 +6,16 @@
 //! of their own beside; readers take all, and of each one's last line on a frame the latest.
 
 use super::names::Names;
+use super::plain::open_plain;
 use indexmap::IndexMap;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
-use std::fs;
-use std::io;
+use std::fs::{self, OpenOptions};
+use std::io::{self, BufRead, BufReader, Read};
 use std::path::Path;
+
+/// Longest line that is read, bytes. Ours have some KiB.
+const LONGEST_LINE: u64 = 1 << 20;
 
 /// A finished frame.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -85,35 +89,114 @@ impl Seconds {
     }
 }
 
+/// Files of a frame that no record told of, and that were found whole: of other times' doing, say,
+/// or of a run that was killed before it wrote the record.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub(super) struct Found {
+    /// The frame's number.
+    pub(super) found: u32,
+    /// What the files say that it is made of.
+    pub(super) fingerprint: String,
+    /// Names and lengths of the files.
+    pub(super) files: BTreeMap<String, u64>,
+}
+
+/// What all manifests of a folder tell.
+#[derive(Debug, Default)]
+pub(super) struct Manifests {
+    /// The last record of each frame.
+    pub(super) records: BTreeMap<u32, Record>,
+    /// The last that was found of each frame.
+    pub(super) found: BTreeMap<u32, Found>,
+}
+
 /// The last record of each frame in all manifests of a folder. Lines that are none, such as one
 /// that a killed run did not finish, are passed over. A folder that is not there holds none.
 ///
 /// # Errors
 /// When the folder or a manifest cannot be read.
 pub fn read_records(folder: &Path, names: &Names) -> io::Result<BTreeMap<u32, Record>> {
-    let mut records: BTreeMap<u32, Record> = BTreeMap::new();
-    let entries = match fs::read_dir(folder) {
-        Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(records),
-        entries => entries?,
-    };
-    for entry in entries {
-        let entry = entry?;
-        if !names.is_manifest(&entry.file_name().to_string_lossy()) {
-            continue;
+    Ok(Manifests::read(folder, names)?.records)
+}
+
+impl Manifests {
+    /// Reads them. Links, folders and pipes that are called like manifests are none.
+    ///
+    /// # Errors
+    /// When the folder or a manifest cannot be read.
+    pub(super) fn read(folder: &Path, names: &Names) -> io::Result<Self> {
+        let mut all = Self::default();
+        let entries = match fs::read_dir(folder) {
+            Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(all),
+            entries => entries?,
+        };
+        for entry in entries {
+            let entry = entry?;
+            let is_manifest = names.is_manifest(&entry.file_name().to_string_lossy());
+            if is_manifest && entry.file_type()?.is_file() {
+                all.add(&entry.path())?;
+            }
         }
-        let bytes = fs::read(entry.path())?;
+        Ok(all)
+    }
+
+    fn add(&mut self, path: &Path) -> io::Result<()> {
+        let file = open_plain(path, OpenOptions::new().read(true))?;
         let mut own: BTreeMap<u32, Record> = BTreeMap::new();
-        for line in bytes.split(|byte| *byte == b'\n') {
+        each_line(BufReader::new(file), |line| {
             if let Ok(record) = serde_json::from_slice::<Record>(line) {
                 own.insert(record.frame, record);
+            } else if let Ok(found) = serde_json::from_slice::<Found>(line) {
+                self.found.insert(found.found, found);
             }
-        }
+        })?;
         for (frame, record) in own {
             let newer = |old: &Record| old.finished <= record.finished;
-            if records.get(&frame).is_none_or(newer) {
-                records.insert(frame, record);
+            if self.records.get(&frame).is_none_or(newer) {
+                self.records.insert(frame, record);
             }
         }
+        Ok(())
     }
-    Ok(records)
+}
+
+/// Calls `each` with the lines of a manifest. Anybody may have written it: one that is longer than
+/// any of ours is passed over, and takes no memory.
+fn each_line(mut manifest: impl BufRead, mut each: impl FnMut(&[u8])) -> io::Result<()> {
+    let mut line = Vec::new();
+    loop {
+        line.clear();
+        let mut start = manifest.by_ref().take(LONGEST_LINE);
+        let length = start.read_until(b'\n', &mut line)?;
+        match line.last() {
+            None => return Ok(()),
+            Some(b'\n') => each(&line),
+            Some(_) if length as u64 == LONGEST_LINE => {
+                manifest.skip_until(b'\n')?;
+            }
+            Some(_) => each(&line),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lines_are_told_one_by_one_and_those_longer_than_any_of_ours_are_not() {
+        let longest = LONGEST_LINE as usize;
+        let fits = "f".repeat(longest - 1);
+        let text = format!(
+            "first\n\n{fits}\n{}\n{}\nlast",
+            "t".repeat(longest),
+            "u".repeat(3 * longest)
+        );
+        let mut lines = Vec::new();
+        each_line(text.as_bytes(), |line| {
+            lines.push(line.trim_ascii().to_vec())
+        })
+        .expect("in memory");
+        assert_eq!(lines, [&b"first"[..], b"", fits.as_bytes(), b"last"]);
+    }
 }

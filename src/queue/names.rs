@@ -5,6 +5,9 @@ use crate::shot::Shot;
 /// The claim under which a sequence is assembled.
 pub const SEQUENCE: &str = "sequence";
 
+/// What the names of assembled files end in.
+pub const ASSEMBLED: [&str; 5] = ["sheet.png", "gif", "apng", "mp4", "av1.mp4"];
+
 /// The names of one shot's files, all in one folder.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Names {
@@ -37,9 +40,8 @@ impl Names {
     pub fn frame_of<'a>(&self, name: &'a str) -> Option<(u32, &'a str)> {
         let rest = name.strip_prefix(&self.stem)?.strip_prefix('.')?;
         let (number, extension) = rest.split_once('.')?;
-        let whole = number.len() >= 4 && number.bytes().all(|b| b.is_ascii_digit());
         let known = matches!(extension, "png" | "exr");
-        (whole && known).then_some((number.parse().ok()?, extension))
+        (is_number(number) && known).then_some((number.parse().ok()?, extension))
     }
 
     /// A frame's number as it stands in the names of its files: 0012.
@@ -56,18 +58,20 @@ impl Names {
     /// Of a file that was being written: the name of the claim under which that was. None if it is
     /// no such file of this shot.
     pub fn claim_of_temporary(&self, name: &str) -> Option<String> {
-        let written = name.strip_suffix(".tmp")?;
-        let rest = written.strip_prefix(&self.stem);
-        match rest.and_then(|rest| rest.strip_prefix('.')) {
-            Some(rest) => {
-                let number = rest.split('.').next().unwrap_or_default();
-                let is_frame = number.len() >= 4 && number.bytes().all(|b| b.is_ascii_digit());
-                Some(if is_frame { number } else { SEQUENCE }.to_owned())
-            }
-            None => written
-                .starts_with("index.html.")
-                .then(|| SEQUENCE.to_owned()),
+        let (target, mark) = name.strip_suffix(".tmp")?.rsplit_once('.')?;
+        let suffix = target.strip_prefix(&self.stem);
+        let suffix = suffix.and_then(|suffix| suffix.strip_prefix('.'));
+        let by_process = is_process_and_serial(mark);
+        if by_process && self.frame_of(target).is_some() {
+            let number = suffix?.split('.').next()?;
+            return Some(number.to_owned());
         }
+        let is_assembled = suffix.is_some_and(|suffix| ASSEMBLED.contains(&suffix));
+        let ours = match by_process {
+            true => is_assembled || target == "index.html",
+            false => is_assembled && is_random(mark),
+        };
+        ours.then(|| SEQUENCE.to_owned())
     }
 
     /// STEM.manifest.jsonl, or STEM.manifest.K-N.jsonl of a shard.
@@ -85,8 +89,25 @@ impl Names {
             .is_some_and(|rest| rest == "jsonl" || rest.ends_with(".jsonl"))
     }
 
-    /// STEM.SUFFIX, of what is assembled: "sheet.png", "gif", "apng", "mp4", "av1.mp4".
+    /// STEM.SUFFIX, of what is assembled, one of [`ASSEMBLED`].
     pub fn assembled(&self, suffix: &str) -> String {
         format!("{}.{suffix}", self.stem)
     }
+}
+
+/// Whether a file that was being written has this mark of frames and pages: PID-SERIAL.
+fn is_process_and_serial(mark: &str) -> bool {
+    let digits = |part: &str| !part.is_empty() && part.bytes().all(|byte| byte.is_ascii_digit());
+    mark.split_once('-')
+        .is_some_and(|(process, serial)| digits(process) && digits(serial))
+}
+
+/// Whether it has that of drafts: six letters and digits.
+fn is_random(mark: &str) -> bool {
+    mark.len() == 6 && mark.bytes().all(|byte| byte.is_ascii_alphanumeric())
+}
+
+/// Whether a name, or a part of it, is a frame's number.
+pub(super) fn is_number(name: &str) -> bool {
+    name.len() >= 4 && name.bytes().all(|byte| byte.is_ascii_digit())
 }

@@ -2,14 +2,15 @@
 //!
 //! On a terminal a bar with the time that is left. Elsewhere one plain line for each frame, without
 //! escapes or carriage returns. Work is counted in expected cost, in whatever unit the caller likes.
-//! Trouble with the streams is passed over: news of the work must not end the work.
+//! Trouble with the streams does not end the work; that with standard output, where programs read, is
+//! kept until the end ([`Progress::trouble`]).
 
 use super::bar::Bar;
 use super::deed::Deed;
 use super::event::{Event, Summary};
-use std::io::{self, Write};
+use std::io::{self, ErrorKind, Write};
 use std::path::{Path, PathBuf};
-use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::sync::{Mutex, MutexGuard, OnceLock, PoisonError};
 use std::time::Instant;
 
 /// How progress is told.
@@ -47,6 +48,8 @@ pub struct Progress {
     results: Results,
     open_jd: OpenJd,
     tally: Mutex<Tally>,
+    /// The first on standard output.
+    trouble: OnceLock<io::Error>,
 }
 
 /// How standard error is told.
@@ -95,6 +98,7 @@ impl Progress {
                 _ => OpenJd::NotAsked,
             },
             tally: Mutex::default(),
+            trouble: OnceLock::new(),
         }
     }
 
@@ -146,15 +150,16 @@ impl Progress {
             Told::Notes | Told::Events => {}
         }
         if self.open_jd == OpenJd::Asked {
-            write_line(&mut io::stdout().lock(), &format!("openjd_status: {line}"));
+            self.answer(&format!("openjd_status: {line}"));
         }
         self.event(&Event::frame(shot, frame, deed, files));
     }
 
-    /// Tells that so much work will not be done.
+    /// Tells that so much work will not be done, or, of frames in work, was done for nothing.
     pub fn forgo(&self, work: f64) {
         let mut tally = self.tally();
         tally.work -= work;
+        tally.in_work = (tally.in_work - work).max(0.0);
         self.show(&mut tally);
     }
 
@@ -175,7 +180,7 @@ impl Progress {
         if matches!(self.told, Told::Bar(_) | Told::Lines) {
             self.say(&format!("assembled  {}", file.display()));
         }
-        self.event(&Event::Assembled { file });
+        self.event(&Event::assembled(file));
     }
 
     /// Tells how it ended, with the exit status of the run; what more is told comes too late.
@@ -214,6 +219,11 @@ impl Progress {
         self.event(&Event::Summary(summary));
     }
 
+    /// Why standard output does not have all that was told, if it was read.
+    pub fn trouble(&self) -> Option<&io::Error> {
+        self.trouble.get()
+    }
+
     /// How it ended; once.
     fn summary(&self, exit: u8) -> Option<Summary> {
         let mut tally = self.tally();
@@ -246,10 +256,7 @@ impl Progress {
         let percent = (share * 100.0).floor();
         if self.open_jd == OpenJd::Asked && percent > tally.percent {
             tally.percent = percent;
-            write_line(
-                &mut io::stdout().lock(),
-                &format!("openjd_progress: {percent:.1}"),
-            );
+            self.answer(&format!("openjd_progress: {percent:.1}"));
         }
     }
 
@@ -261,10 +268,19 @@ impl Progress {
     }
 
     fn say(&self, line: &str) {
-        let write = || write_line(&mut io::stderr().lock(), line);
+        let write = || drop(write_line(&mut io::stderr().lock(), line));
         match &self.told {
             Told::Bar(bar) => bar.aside(write),
             _ => write(),
+        }
+    }
+
+    /// A line on standard output. A reader who has gone away is no trouble.
+    fn answer(&self, line: &str) {
+        if let Err(error) = write_line(&mut io::stdout().lock(), line)
+            && error.kind() != ErrorKind::BrokenPipe
+        {
+            let _ = self.trouble.set(error);
         }
     }
 
@@ -276,10 +292,10 @@ impl Progress {
         if err || out {
             let line = event.line();
             if err {
-                write_line(&mut io::stderr().lock(), &line);
+                let _ = write_line(&mut io::stderr().lock(), &line);
             }
             if out {
-                write_line(&mut io::stdout().lock(), &line);
+                self.answer(&line);
             }
         }
     }
@@ -320,9 +336,9 @@ fn line(settled: u64, frames: u64, deed: &Deed, files: &[PathBuf]) -> String {
 }
 
 /// The whole line in one call, so that lines of other processes do not come between.
-fn write_line(out: &mut impl Write, line: &str) {
-    let _ = out.write_all(format!("{line}\n").as_bytes());
-    let _ = out.flush();
+fn write_line(out: &mut impl Write, line: &str) -> io::Result<()> {
+    out.write_all(format!("{line}\n").as_bytes())?;
+    out.flush()
 }
 
 #[cfg(test)]
@@ -373,6 +389,10 @@ mod tests {
         assert_eq!(share(), 0.4);
         progress.forgo(2.0);
         assert_eq!(share(), 0.5);
+        // Rendered, and then there was no room.
+        progress.advance(1.0);
+        progress.forgo(1.0);
+        assert_eq!(share(), 4.0 / 7.0);
         let summary = progress.summary(0).expect("the first time");
         assert_eq!((summary.rendered, summary.left), (1, 2));
         assert!(progress.summary(0).is_none());

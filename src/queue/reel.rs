@@ -1,11 +1,12 @@
 //! A shot's frames in their folder: what each should be made of, and what is there.
 
 use super::because::difference;
-use super::manifest::{Record, read_records};
+use super::manifest::{Found, Manifests, Record};
 use super::names::Names;
 use super::shots::{Request, options};
 use crate::film::imprint;
 use crate::plan::{Digests, FrameKey, Keys, Picture};
+use crate::render::Options;
 use crate::shot::{Format, Mistakes, Shot};
 use std::collections::BTreeMap;
 use std::fs;
@@ -24,6 +25,10 @@ pub struct Reel {
     pub names: Names,
     /// Of finished frames, as the manifests had them when this was last read.
     pub records: BTreeMap<u32, Record>,
+    /// Of others that were found whole.
+    found: BTreeMap<u32, Found>,
+    /// Size, samples and layers of each.
+    pub(super) options: Options,
 }
 
 /// Whether a frame has to be rendered.
@@ -62,21 +67,33 @@ impl Reel {
     /// # Errors
     /// Files of the shot or of the folder that cannot be read.
     pub fn open(shot: &Shot, request: &Request) -> Result<Self, ReelError> {
-        let digests = Digests::read(shot).map_err(|m| ReelError::Mistakes(Box::new(m)))?;
+        let reel = Self::new(shot, request);
+        let mut reel = reel.map_err(|m| ReelError::Mistakes(Box::new(m)))?;
+        reel.refresh()?;
+        Ok(reel)
+    }
+
+    /// The same, but that the folder has not been looked at yet: what frames should be made of is
+    /// the same on every machine.
+    ///
+    /// # Errors
+    /// Files of the shot that cannot be read.
+    pub fn new(shot: &Shot, request: &Request) -> Result<Self, Mistakes> {
+        let digests = Digests::read(shot)?;
         let options = options(shot, request);
         let picture = Picture {
             size: [options.width, options.height],
             samples: options.samples,
         };
         let names = Names::new(shot);
-        let mut reel = Self {
+        Ok(Self {
             keys: Keys::new(shot.clone(), digests, picture),
             folder: request.out.join(&names.stem),
             names,
             records: BTreeMap::new(),
-        };
-        reel.refresh()?;
-        Ok(reel)
+            found: BTreeMap::new(),
+            options,
+        })
     }
 
     /// The shot.
@@ -89,11 +106,12 @@ impl Reel {
     /// # Errors
     /// When the folder cannot be read.
     pub fn refresh(&mut self) -> Result<(), ReelError> {
-        self.records =
-            read_records(&self.folder, &self.names).map_err(|error| ReelError::Folder {
-                folder: self.folder.clone(),
-                error,
-            })?;
+        let read = Manifests::read(&self.folder, &self.names);
+        let Manifests { records, found } = read.map_err(|error| ReelError::Folder {
+            folder: self.folder.clone(),
+            error,
+        })?;
+        (self.records, self.found) = (records, found);
         Ok(())
     }
 
@@ -139,20 +157,51 @@ impl Reel {
                 None => "no manifest tells what it was made of".to_owned(),
             });
         }
-        let record = record.filter(|record| record.fingerprint == key.fingerprint);
-        let Some(record) = record else {
+        let Some(told) = self.told(frame, key) else {
             return self.decoded(&files);
         };
-        for (name, length) in files.iter().zip(lengths) {
-            let bytes = match record.files.iter().find(|file| file.name == *name) {
-                None => return self.decoded(&files),
-                Some(file) => file.bytes,
-            };
+        for ((name, length), bytes) in files.iter().zip(lengths).zip(told) {
             if let Some(length) = length.filter(|length| *length != bytes) {
                 return stale(format!("{name} has {length} bytes, not {bytes}"));
             }
         }
         Status::Fresh
+    }
+
+    /// Lengths that a manifest tells of a frame's files, in their order.
+    fn told(&self, frame: u32, key: &FrameKey) -> Option<Vec<u64>> {
+        let files = self.files(frame);
+        let record = self.records.get(&frame).into_iter();
+        let mut record = record.filter(|record| record.fingerprint == key.fingerprint);
+        let recorded = record.next().and_then(|record| {
+            let length =
+                |name: &String| Some(record.files.iter().find(|file| file.name == *name)?.bytes);
+            files.iter().map(length).collect()
+        });
+        recorded.or_else(|| {
+            let found = self.found.get(&frame);
+            let found = found.filter(|found| found.fingerprint == key.fingerprint)?;
+            files
+                .iter()
+                .map(|name| found.files.get(name).copied())
+                .collect()
+        })
+    }
+
+    /// What is to be written down of a frame that is fresh, so that it need not be decoded again;
+    /// nothing, if a manifest tells of it.
+    pub(super) fn found(&self, frame: u32, key: &FrameKey) -> Option<Found> {
+        if self.told(frame, key).is_some() {
+            return None;
+        }
+        let files = self.files(frame).into_iter().zip(self.lengths(frame));
+        Some(Found {
+            found: frame,
+            fingerprint: key.fingerprint.clone(),
+            files: files
+                .map(|(name, length)| Some((name, length?)))
+                .collect::<Option<_>>()?,
+        })
     }
 
     /// What a glance at the folder shows of a frame: it changes when another process writes it.

@@ -1,7 +1,6 @@
 //! Shots read and checked, and what is asked of their rendering.
 
 use super::frames::FrameList;
-use super::machine::free_memory_mib;
 use super::shifts::refuse_shifted_numbers;
 use crate::film::EncodeError;
 use crate::render::{Options, metered_exposure};
@@ -83,16 +82,6 @@ impl Prepared {
         Ok(Self { shot, library })
     }
 
-    /// The name of the shot's folder and files.
-    pub fn stem(&self) -> String {
-        self.shot
-            .path
-            .file_stem()
-            .unwrap_or_default()
-            .to_string_lossy()
-            .into_owned()
-    }
-
     /// How the shot's frames are exposed; and frame 1, where metering had to build it.
     ///
     /// # Errors
@@ -149,24 +138,5 @@ pub fn options(shot: &Shot, request: &Request) -> Options {
         } else {
             Vec::new()
         },
-    }
-}
-
-/// Refuses an image that this machine surely cannot hold, rather than be killed half-way.
-///
-/// # Errors
-/// [`RenderError::Memory`].
-pub(super) fn check_memory(options: &Options) -> Result<(), RenderError> {
-    // The film, developed values, bytes of a picture and the encoder's copy of them.
-    let bytes = 12 + 12 + 3 + 16 + 8 * options.layers.len() as u64;
-    let needed = (u64::from(options.width) * u64::from(options.height) * bytes) >> 20;
-    match free_memory_mib() {
-        Some(free) if needed > free => Err(RenderError::Memory {
-            width: options.width,
-            height: options.height,
-            needed,
-            free,
-        }),
-        _ => Ok(()),
     }
 }

@@ -5,10 +5,11 @@ use super::claim::Claim;
 use super::deed::Deed;
 use super::job::Job;
 use super::manifest::{FileRecord, Record, Seconds};
+use super::memory::{check_memory, most_developed};
 use super::picture::{Pictures, Taken, pictures};
 use super::progress::Progress;
 use super::record::{blank, stops, warnings};
-use super::shots::{Exposing, Prepared, RenderError, check_memory};
+use super::shots::{Exposing, Prepared, RenderError};
 use super::write::{is_full, twice, write_atomically};
 use crate::film::Film;
 use crate::plan::{self, MotionError};
@@ -125,7 +126,8 @@ impl Foreman<'_> {
         Ok(())
     }
 
-    /// Films to files, as many at once as there are threads; a frame is told when it is on the disk.
+    /// Films to files, as many at once as threads and memory allow; a frame is told when it is on the
+    /// disk.
     fn develop(self, jobs: &mut [Job], batch: Vec<Ready>, shoot: Shoot) {
         let Shoot {
             first,
@@ -142,10 +144,10 @@ impl Foreman<'_> {
         let shared = batch.len();
         let part = |seconds: f64| seconds / shared as f64;
         let mut rest = batch.into_iter().zip(&scenes).zip(films);
-        let threads = rayon::current_num_threads();
+        let most = most_developed(&jobs[first].options, rayon::current_num_threads());
         let mut patience = Patience::default();
         loop {
-            let chunk: Vec<((Ready, &Scene), Film)> = rest.by_ref().take(threads).collect();
+            let chunk: Vec<((Ready, &Scene), Film)> = rest.by_ref().take(most).collect();
             if chunk.is_empty() || self.is_stopped() && patience.is_out() {
                 break;
             }
@@ -175,7 +177,7 @@ impl Foreman<'_> {
                     write: 0.0,
                 };
                 match made {
-                    _ if job.halted.is_some() => {}
+                    _ if job.halted.is_some() => self.progress.forgo(ready.task.work),
                     Ok(made) => self.file(job, &ready, made, (seconds, shared)),
                     Err(error) => self.failed(job, &ready.task, &error.to_string()),
                 }

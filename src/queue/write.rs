@@ -32,9 +32,17 @@ pub(super) fn check_writable(folder: &Path, stem: &str) -> io::Result<()> {
     create_beside(&path)
         .and_then(|(file, temporary)| {
             drop(file);
-            fs::remove_file(temporary)
+            remove_if_there(&temporary)
         })
         .map_err(|error| explain(&path, &error))
+}
+
+/// Removes a file, which another process may take for a leftover and remove first.
+fn remove_if_there(path: &Path) -> io::Result<()> {
+    match fs::remove_file(path) {
+        Err(error) if error.kind() != ErrorKind::NotFound => Err(error),
+        _ => Ok(()),
+    }
 }
 
 /// Whether there is no room: of no use to try again before somebody has made some.
@@ -137,6 +145,7 @@ pub fn explain(path: &Path, error: &io::Error) -> io::Error {
         ErrorKind::IsADirectory | ErrorKind::DirectoryNotEmpty => {
             "a folder has the file's name: move it away".to_owned()
         }
+        ErrorKind::AlreadyExists => "move it away".to_owned(),
         ErrorKind::FileTooLarge => "raise the limit on file sizes (ulimit -f)".to_owned(),
         ErrorKind::InvalidFilename => "the name must be a shorter or plainer one".to_owned(),
         _ => format!("see that the disk of {folder} works"),
@@ -235,6 +244,18 @@ mod tests {
         let error = write_atomically(&path, b"x").expect_err("a folder is there");
         assert!(error.to_string().contains("move it away"), "{error}");
         assert_eq!(names(folder.path()), ["plate.png"]);
+    }
+
+    #[test]
+    fn what_another_process_has_swept_is_removed_as_well() {
+        let folder = tempfile::tempdir().expect("scratch folder");
+        let path = folder.path().join("plate.0001.png.77-0.tmp");
+        fs::write(&path, b"").expect("writable");
+        for _ in 0..2 {
+            remove_if_there(&path).expect("removed, or not there");
+        }
+        assert_eq!(names(folder.path()), [""; 0]);
+        assert!(remove_if_there(folder.path()).is_err());
     }
 
     #[test]

@@ -67,3 +67,15 @@ impl Output {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::queue::ASSEMBLED;
+
+    /// Else what a killed run leaves of it is not swept.
+    #[test]
+    fn the_queue_knows_the_names_of_all_there_are() {
+        assert_eq!(OUTPUTS.map(Output::suffix), ASSEMBLED);
+    }
+}

@@ -6,6 +6,7 @@
 use super::mistake::{Mistake, Mistakes, Places};
 use super::walk::{MISSING, Walk, spans};
 use super::{Shot, check};
+use std::ffi::OsStr;
 use std::fs::File;
 use std::io::{self, Read};
 use std::ops::Range;
@@ -20,6 +21,15 @@ pub const MAX_BYTES: u64 = 4 << 20;
 /// # Errors
 /// All mistakes in it, or the one reason why it cannot be read.
 pub fn load(path: &Path) -> Result<Shot, Mistakes> {
+    if let Some(stem @ ("." | "..")) = path.file_stem().and_then(OsStr::to_str) {
+        let message =
+            format!("images and their folder are called after the file, and {stem:?} is no name");
+        return Err(Mistakes::unreadable(
+            path,
+            message,
+            Some("rename the file".into()),
+        ));
+    }
     let bytes = read(path).map_err(|error| unreadable(path, &error))?;
     if bytes.len() as u64 > MAX_BYTES {
         let message = format!(

@@ -25,7 +25,7 @@ pub use findings::Study;
 use crate::film::EncodeError;
 use crate::film::compare::CompareError;
 use crate::plan::{self, Called};
-use crate::queue::Prepared;
+use crate::queue::{Names, Prepared};
 use crate::render::{Options, motion_mistake};
 use crate::scene::Scene;
 use crate::shot::{Accuracy, Mistakes, Shot, Spectra};
@@ -169,7 +169,7 @@ pub fn study(
     };
     Ok(Study {
         schema_version: 1,
-        shot: prepared.stem(),
+        shot: Names::new(&prepared.shot).stem,
         title: shot.shot.title.clone(),
         frame,
         size: [request.options.width, request.options.height],

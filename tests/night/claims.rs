@@ -1,10 +1,15 @@
 //! Two processes at work on one folder.
 
-use super::desk::{Desk, Outcome};
+use super::desk::{Desk, Outcome, PASSING};
 
 #[test]
 fn of_two_processes_at_once_each_frame_is_rendered_by_one() {
     let desk = Desk::new();
+    // Long enough for both to be at work.
+    desk.write(
+        "passing.toml",
+        &PASSING.replace("samples = 4", "samples = 60"),
+    );
     desk.done("render passing.toml --out whole");
     let call = "render passing.toml --out both --threads 1 --json";
     let children = [desk.spawn(call), desk.spawn(call)];
@@ -14,7 +19,9 @@ fn of_two_processes_at_once_each_frame_is_rendered_by_one() {
         assert_eq!(outcome.status, Some(0), "{}", outcome.stderr);
         let all = [outcome.frames("rendered"), outcome.frames("kept")].concat();
         assert_eq!(all.len(), 20, "each tells of every frame");
-        rendered.extend(outcome.frames("rendered"));
+        let own = outcome.frames("rendered");
+        assert!(!own.is_empty(), "one came when the other had done all");
+        rendered.extend(own);
     }
     let mut recorded = desk.recorded("both");
     recorded.sort_unstable();

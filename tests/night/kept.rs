@@ -2,10 +2,9 @@
 
 use super::desk::{Desk, PASSING};
 use std::fs;
-use std::time::{Duration, Instant};
 
 #[test]
-fn a_night_of_fresh_frames_reads_no_model_and_takes_no_time() {
+fn a_night_of_fresh_frames_reads_no_model_and_records_nothing() {
     let desk = Desk::new();
     // The model's warning shows whether it is read.
     let model = fs::read_to_string(desk.path("sphere.obj")).unwrap();
@@ -16,11 +15,8 @@ fn a_night_of_fresh_frames_reads_no_model_and_takes_no_time() {
         "{}",
         first.stderr
     );
-    let begun = Instant::now();
     let again = desk.done("render passing.toml --progress none");
     assert_eq!(again.stderr, "");
-    let took = begun.elapsed();
-    assert!(took < Duration::from_secs(1), "{took:?}");
     assert_eq!(
         desk.done("render passing.toml --json").frames("kept").len(),
         20
@@ -95,6 +91,30 @@ fn a_folder_survives_without_its_manifest_but_not_its_broken_pictures() {
         "{}",
         outcome.stdout
     );
+}
+
+/// A frame that is decoded each time would show that a byte of it has been turned.
+#[test]
+fn frames_found_without_a_manifest_are_written_down_and_not_decoded_again() {
+    let desk = Desk::new();
+    desk.done("render glowing.toml");
+    let manifest = desk.path("renders/glowing/glowing.manifest.jsonl");
+    fs::remove_file(&manifest).unwrap();
+    let kept = |line: &str| desk.done(line).frames("kept");
+    let call = "render glowing.toml --json";
+    assert_eq!(kept(call), [1, 2, 3, 4, 5, 6]);
+    let written = fs::read_to_string(&manifest).unwrap();
+    assert_eq!(written.matches("\"found\":").count(), 6, "{written}");
+    let picture = desk.path("renders/glowing/glowing.0003.png");
+    let mut bytes = fs::read(&picture).unwrap();
+    let middle = bytes.len() - 100;
+    bytes[middle] ^= 1;
+    fs::write(&picture, &bytes).unwrap();
+    assert_eq!(kept(call), [1, 2, 3, 4, 5, 6]);
+    assert_eq!(fs::read_to_string(&manifest).unwrap(), written);
+    fs::write(&picture, &bytes[..middle]).unwrap();
+    let outcome = desk.done(call);
+    assert_eq!(outcome.frames("rendered"), [3], "{}", outcome.stdout);
 }
 
 #[test]

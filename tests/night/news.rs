@@ -74,6 +74,21 @@ fn open_job_description_is_told_per_cents_that_rise_to_100_and_frames() {
     assert_eq!(both.status, Some(2));
 }
 
+#[cfg(target_os = "linux")]
+#[test]
+fn events_that_are_lost_for_want_of_room_make_a_failure_of_a_finished_run() {
+    let desk = Desk::new();
+    for mode in ["--json", "--progress openjd"] {
+        let outcome = desk.shell(&format!(
+            "exec $restframe render passing.toml --frames 1-3 {mode} > /dev/full"
+        ));
+        assert_eq!(outcome.status, Some(1), "{mode}: {}", outcome.stderr);
+        let told = outcome.stderr.contains("error: standard output: ");
+        assert!(told, "{mode}: {}", outcome.stderr);
+        assert_eq!(desk.pictures("renders").len(), 3);
+    }
+}
+
 #[test]
 fn readers_who_go_away_do_no_harm() {
     let desk = Desk::new();

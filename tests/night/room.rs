@@ -46,6 +46,16 @@ fn a_limit_on_file_sizes_fails_one_shot_with_a_sentence_and_tears_nothing() {
 }
 
 #[test]
+fn work_that_there_is_no_room_for_is_not_waited_for() {
+    let desk = Desk::new();
+    let outcome = desk.shell("ulimit -f 4; exec $restframe render glowing.toml --progress openjd");
+    assert_eq!(outcome.status, Some(1), "{}", outcome.stderr);
+    let mut percents = outcome.stdout.lines().rev();
+    let last = percents.find_map(|line| line.strip_prefix("openjd_progress: "));
+    assert_eq!(last, Some("100.0"), "{}", outcome.stdout);
+}
+
+#[test]
 fn a_full_disk_ends_its_shot_and_what_is_there_is_whole_and_kept_later() {
     let desk = Desk::new();
     fs::create_dir(desk.path("disk")).unwrap();

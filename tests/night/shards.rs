@@ -1,6 +1,7 @@
 //! Shared among machines.
 
-use super::desk::Desk;
+use super::desk::{Desk, Outcome, PASSING};
+use std::fs;
 
 #[test]
 fn shards_in_any_order_on_any_threads_are_the_whole_byte_by_byte() {
@@ -25,6 +26,33 @@ fn shards_in_any_order_on_any_threads_are_the_whole_byte_by_byte() {
         assert_eq!(rendered, 26, "no frame in two shards");
         assert!(desk.pictures(out) == whole, "{out}");
     }
+}
+
+/// Else each machine would deal out what is left after the folders that it cannot read.
+#[test]
+fn machines_deal_alike_though_one_cannot_read_a_folder() {
+    let desk = Desk::new();
+    let other = PASSING.replace("[0.8, 0, 0]", "[0.7, 0, 0]");
+    desk.write("other.toml", &other);
+    fs::create_dir(desk.path("one")).unwrap();
+    desk.write("one/passing", "a file");
+    let call = |out: &str, k: u32| {
+        let call = "render passing.toml other.toml --frames 1-3 --json";
+        desk.call(&format!("{call} --out {out} --shard {k}/2"))
+    };
+    let [one, two] = [call("one", 1), call("two", 2)];
+    assert_eq!((one.status, two.status), (Some(1), Some(0)));
+    let told = |outcome: &Outcome| {
+        let events = outcome.events().into_iter();
+        let of_other = events.filter(|event| event["shot"] == "other.toml");
+        of_other
+            .filter_map(|event| event["frame"].as_u64())
+            .collect()
+    };
+    let mut frames: Vec<u64> = told(&one);
+    frames.extend::<Vec<u64>>(told(&two));
+    frames.sort_unstable();
+    assert_eq!(frames, [1, 2, 3]);
 }
 
 #[test]

@@ -120,8 +120,18 @@ fn a_second_signal_ends_the_run_at_once() {
 #[test]
 fn an_interrupt_that_the_caller_ignores_stays_ignored() {
     let desk = Desk::new();
-    let line = "trap '' INT; $restframe render passing.toml --json --progress none & sleep 0.05; kill -INT $!; wait $!";
+    desk.write(
+        "passing.toml",
+        &PASSING.replace("samples = 4", "samples = 60"),
+    );
+    let line = "trap '' INT
+        $restframe render passing.toml --json --progress none > events &
+        until grep -qs rendered events; do sleep 0.01; done
+        kill -INT $!; grep -c summary events > ended; wait $!; status=$?
+        cat events; exit $status";
     let outcome: Outcome = desk.shell(line);
+    let ended = std::fs::read_to_string(desk.path("ended")).unwrap();
+    assert_eq!(ended, "0\n", "the signal came after the end");
     assert_eq!(outcome.status, Some(0), "{}", outcome.stderr);
     assert_eq!(outcome.frames("rendered").len(), 20);
 }
