@@ -4,10 +4,10 @@
 use super::output::Output;
 use crate::film::decode::open;
 use crate::plan::facts;
-use crate::queue::Reel;
+use crate::queue::{Reel, open_plain};
 use serde::{Deserialize, Serialize};
 use serde_json::json;
-use std::fs::{self, OpenOptions};
+use std::fs::OpenOptions;
 use std::io::{self, Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
@@ -95,12 +95,7 @@ pub(super) fn remember(reel: &Reel, name: &str, key: String) -> io::Result<()> {
         assembled: name.to_owned(),
     };
     let text = format!("\n{}\n", serde_json::to_string(&line)?);
-    // Who put a pipe or a link there is not followed.
-    let path = path(reel);
-    if fs::symlink_metadata(&path).is_ok_and(|found| !found.is_file()) {
-        return Err(io::ErrorKind::AlreadyExists.into());
-    }
-    let mut file = OpenOptions::new().create(true).append(true).open(path)?;
+    let mut file = open_plain(&path(reel), OpenOptions::new().create(true).append(true))?;
     file.write_all(text.as_bytes())?;
     file.sync_all()
 }

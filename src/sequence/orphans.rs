@@ -33,8 +33,7 @@ fn why(reel: &Reel, file: &str) -> Option<String> {
     if file == PAGE && !reel.shot().sequence.page {
         return Some("[sequence] asks for no page".to_owned());
     }
-    let ours = file.strip_prefix(&names.stem)?;
-    if ours.starts_with('.') && ours.ends_with(".tmp") {
+    if names.claim_of_temporary(file).is_some() {
         return Some("a run that was killed left it, or one is at work; remove it".to_owned());
     }
     if let Some((frame, extension)) = names.frame_of(file) {
