@@ -61,7 +61,11 @@ fn a_call_with_nothing_to_make_claims_nothing() {
     fs::remove_file(desk.file("passing.apng")).unwrap();
     let told = desk.call(&RENDER);
     assert_eq!(told.status, 1);
-    assert!(told.stderr.contains("cannot lock"), "{}", told.stderr);
+    assert!(
+        told.stderr.contains(".passing.locks is no folder"),
+        "{}",
+        told.stderr
+    );
 }
 
 #[test]

@@ -306,5 +306,6 @@ fn every_shot_of_the_call_is_in_the_answer_as_json() {
     // In the way of whoever claims.
     fs::write(desk.file(".passing.locks"), "").unwrap();
     let error = answer("assemble")["shots"][1]["error"].clone();
-    assert!(error.as_str().unwrap().contains("cannot lock"), "{error}");
+    let said = error.as_str().unwrap();
+    assert!(said.contains(".passing.locks is no folder"), "{error}");
 }
