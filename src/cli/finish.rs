@@ -39,7 +39,18 @@ impl Finisher<'_> {
         if is_finished(&job.reel) && is_told(&job.reel) {
             return Ok(());
         }
-        let claim = self.claim(&job.reel).map_err(|error| told(&error))?;
+        if job.is_halted() {
+            return Ok(());
+        }
+        let claim = match self.claim(&job.reel) {
+            // All that this run would do is tell the same on another page.
+            Err(error) if is_finished(&job.reel) && kept_all(&run) => {
+                self.progress
+                    .warn(&format!("{shot}: the page is not renewed: {error}"));
+                return Ok(());
+            }
+            claim => claim.map_err(|error| told(&error))?,
+        };
         if claim.is_none() {
             return Ok(());
         }
@@ -51,8 +62,11 @@ impl Finisher<'_> {
             Ok(made) => (made, Ok(())),
             Err(AssembleError::Stopped) => return Ok(()),
             Err(AssembleError::Some { made, failures }) => {
-                let done = failures.iter().map(|failure| told(failure)).next_back();
-                (made, done.map_or(Ok(()), Err))
+                let mut done = Ok(());
+                for failure in &failures {
+                    done = Err(told(failure));
+                }
+                (made, done)
             }
             Err(error) => (Vec::new(), Err(told(&error.to_string()))),
         };
@@ -62,8 +76,6 @@ impl Finisher<'_> {
         if !is_told(&job.reel) {
             match page::write(&job.reel, &run, self.stop) {
                 Ok(page) => page.iter().for_each(|page| self.progress.assembled(page)),
-                // Why has been told.
-                Err(_) if job.is_halted() => {}
                 Err(error) => return Err(told(&error.to_string())),
             }
         }
@@ -94,6 +106,10 @@ pub(super) fn claim(reel: &Reel) -> Result<Claim, Unopened> {
         ))),
         Err(error) => Err(Unopened::say(&error.to_string())),
     }
+}
+
+fn kept_all(run: &RunFacts) -> bool {
+    run.outcomes.values().all(|o| *o == Outcome::Kept)
 }
 
 fn run_facts(job: &Job) -> RunFacts {

@@ -13,7 +13,7 @@ mod render;
 mod study;
 mod verify;
 
-use crate::queue::{FrameList, Mode, Shard};
+use crate::queue::{FrameList, Mode, Request, Shard};
 use crate::shot::{self, Mistakes};
 use clap::{Args, Parser, Subcommand};
 use std::io::{self, IsTerminal, Write};
@@ -60,18 +60,11 @@ struct RenderArguments {
     /// Shot files, rendered one after the other
     #[arg(required = true, value_name = "SHOT")]
     shots: Vec<PathBuf>,
-    /// Folder that gets a folder of images for each shot
-    #[arg(long, value_name = "DIR", default_value = "renders")]
-    out: PathBuf,
+    #[command(flatten)]
+    pictures: PictureArguments,
     /// Frames, such as 1-10,20 or 1-100:5 (":" steps, "100-" goes to the end); default all
     #[arg(long, value_name = "LIST", allow_hyphen_values = true)]
     frames: Option<FrameList>,
-    /// Factor on the size of the images
-    #[arg(long, value_name = "FACTOR", default_value = "1", value_parser = scale, allow_negative_numbers = true)]
-    scale: f64,
-    /// Samples a pixel, in place of the shot's
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=65536), allow_negative_numbers = true)]
-    samples: Option<u32>,
     /// Threads; 0 takes every processor. The images are the same for any number
     #[arg(long, value_name = "N", default_value = "0", value_parser = clap::value_parser!(u16).range(0..=1024), allow_negative_numbers = true)]
     threads: u16,
@@ -118,18 +111,11 @@ impl From<ProgressMode> for Mode {
 struct PlanArguments {
     /// Shot file
     shot: PathBuf,
-    /// Folder that images go to: what is finished there is told, and its seconds are what others are judged by
-    #[arg(long, value_name = "DIR", default_value = "renders")]
-    out: PathBuf,
+    #[command(flatten)]
+    pictures: PictureArguments,
     /// Frames, such as 1-10,20; default all
     #[arg(long, value_name = "LIST", allow_hyphen_values = true)]
     frames: Option<FrameList>,
-    /// Factor on the size of the images
-    #[arg(long, value_name = "FACTOR", default_value = "1", value_parser = scale, allow_negative_numbers = true)]
-    scale: f64,
-    /// Samples a pixel, in place of the shot's
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=65536), allow_negative_numbers = true)]
-    samples: Option<u32>,
     /// Answer as JSON
     #[arg(long)]
     json: bool,
@@ -141,18 +127,37 @@ struct FinishedArguments {
     /// Shot files
     #[arg(required = true, value_name = "SHOT")]
     shots: Vec<PathBuf>,
-    /// Folder that images were rendered to
-    #[arg(long, value_name = "DIR", default_value = "renders")]
-    out: PathBuf,
-    /// Factor on the size that they were rendered with
-    #[arg(long, value_name = "FACTOR", default_value = "1", value_parser = scale, allow_negative_numbers = true)]
-    scale: f64,
-    /// Samples a pixel that they were rendered with, in place of the shot's
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=65536), allow_negative_numbers = true)]
-    samples: Option<u32>,
+    #[command(flatten)]
+    pictures: PictureArguments,
     /// Answer as JSON
     #[arg(long)]
     json: bool,
+}
+
+/// Which pictures of a shot, and where they are.
+#[derive(Debug, Args)]
+struct PictureArguments {
+    /// Folder that has a folder of images for each shot
+    #[arg(long, value_name = "DIR", default_value = "renders")]
+    out: PathBuf,
+    /// Factor on the size of the images
+    #[arg(long, value_name = "FACTOR", default_value = "1", value_parser = scale, allow_negative_numbers = true)]
+    scale: f64,
+    /// Samples a pixel, in place of the shot's
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=65536), allow_negative_numbers = true)]
+    samples: Option<u32>,
+}
+
+impl PictureArguments {
+    /// The same for the frames of a list, or for all.
+    fn request(&self, frames: Option<&FrameList>) -> Request {
+        Request {
+            out: self.out.clone(),
+            frames: frames.cloned().unwrap_or_else(FrameList::all),
+            scale: self.scale,
+            samples: self.samples,
+        }
+    }
 }
 
 #[derive(Debug, Args)]

@@ -5,8 +5,8 @@ use super::render::check_scale;
 use super::{Failed, PlanArguments, failed, mistaken, misused, print, print_json};
 use crate::plan::{self, Called};
 use crate::queue::{
-    Costs, Estimate, FrameList, Reel, ReelError, Request, Status, effect_names, frame_bytes,
-    frame_effects, memory_bytes, most_together, options, refuse_shifted_numbers,
+    Costs, Estimate, Reel, ReelError, Request, Status, effect_names, frame_bytes, frame_effects,
+    memory_bytes, most_together, options, refuse_shifted_numbers,
 };
 use crate::render::motion_mistake;
 use crate::shot::{self, Beaming, Shot};
@@ -42,12 +42,7 @@ struct Totals {
 pub(super) fn run(arguments: &PlanArguments) -> Result<(), Failed> {
     let shot = shot::load(&arguments.shot).map_err(|m| mistaken(&m))?;
     refuse_shifted_numbers(&shot).map_err(|m| mistaken(&m))?;
-    let request = Request {
-        out: arguments.out.clone(),
-        frames: arguments.frames.clone().unwrap_or_else(FrameList::all),
-        scale: arguments.scale,
-        samples: arguments.samples,
-    };
+    let request = arguments.pictures.request(arguments.frames.as_ref());
     let chosen = chosen(&shot, &request)?;
     let reel = Reel::open(&shot, &request).map_err(|error| match error {
         ReelError::Mistakes(mistakes) => mistaken(&mistakes),

@@ -3,8 +3,8 @@
 use super::finish::Finisher;
 use super::{FAILURE, Failed, ProgressMode, RenderArguments, failed, mistaken, misused, say};
 use crate::queue::{
-    Force, FrameList, Job, Names, Night, Prepared, Progress, Reel, Request, Resolved, Results,
-    Stop, choose_shard, list_of,
+    Force, Job, Names, Night, Prepared, Progress, Reel, Request, Resolved, Results, Stop,
+    choose_shard, list_of,
 };
 use crate::shot::{self, LARGEST_SIDE, Mistakes, Shot};
 use std::collections::HashMap;
@@ -49,12 +49,7 @@ pub(super) fn pool(threads: u16) -> Result<rayon::ThreadPool, Failed> {
 /// Reads all shots before the first is rendered, so that a mistake in the last one shows at once
 /// and not in the morning.
 fn render(arguments: &RenderArguments, progress: &Progress, stop: &Stop) -> Result<(), Failed> {
-    let request = Request {
-        out: arguments.out.clone(),
-        frames: arguments.frames.clone().unwrap_or_else(FrameList::all),
-        scale: arguments.scale,
-        samples: arguments.samples,
-    };
+    let request = arguments.pictures.request(arguments.frames.as_ref());
     let force = if arguments.force {
         Force::Yes
     } else {
@@ -110,6 +105,12 @@ fn read(
     let mut reels = sound(shots.iter().zip(chosen).map(reel), &mut wrong);
     if let Some(shard) = arguments.shard {
         choose_shard(&mut reels, shard);
+        if !reels.is_empty() && reels.iter().all(|(_, frames)| frames.is_empty()) {
+            let [k, n] = shard.numbers();
+            progress.warn(&format!(
+                "no frame falls to shard {k}/{n}: there are fewer traces than shards"
+            ));
+        }
     }
     let all = reels.len();
     let open = |(reel, frames)| open(reel, frames, progress);

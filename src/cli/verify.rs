@@ -4,7 +4,7 @@ use super::render::check_scale;
 use super::{
     FAILURE, Failed, FinishedArguments, MISTAKE, failed, mistaken, misused, print, print_json,
 };
-use crate::queue::{FrameList, Reel, ReelError, Request};
+use crate::queue::{Reel, ReelError};
 use crate::sequence::{Report, verify};
 use crate::shot::{self, Mistakes};
 use serde_json::{Value, json};
@@ -55,7 +55,13 @@ fn tell(path: &Path, report: &Report) -> Result<(), Failed> {
 /// A shot whose frames cannot be looked at; why, has been said.
 pub(super) struct Unopened {
     pub(super) failed: Failed,
-    why: String,
+    why: Why,
+}
+
+/// As it stands in an answer.
+enum Why {
+    Mistakes(Value),
+    Words(String),
 }
 
 impl Unopened {
@@ -63,34 +69,34 @@ impl Unopened {
     pub(super) fn say(why: &str) -> Self {
         Self {
             failed: failed(why),
-            why: why.to_owned(),
+            why: Why::Words(why.to_owned()),
         }
     }
 
     fn mistaken(mistakes: &Mistakes) -> Self {
         Self {
             failed: mistaken(mistakes),
-            why: mistakes.to_string(),
+            why: Why::Mistakes(mistakes.json()),
         }
     }
 
     /// What stands in the answer for the shot.
     pub(super) fn as_json(&self, shot: &Path) -> Value {
-        json!({"shot": shot.to_string_lossy(), "error": self.why.trim_end()})
+        let shot = shot.to_string_lossy();
+        match &self.why {
+            Why::Mistakes(mistakes) => json!({"shot": shot, "mistakes": mistakes}),
+            Why::Words(words) => json!({"shot": shot, "error": words}),
+        }
     }
 }
 
 /// The finished frames of a shot.
 pub(super) fn open(path: &Path, arguments: &FinishedArguments) -> Result<Reel, Unopened> {
     let shot = shot::load(path).map_err(|m| Unopened::mistaken(&m))?;
-    let request = Request {
-        out: arguments.out.clone(),
-        frames: FrameList::all(),
-        scale: arguments.scale,
-        samples: arguments.samples,
-    };
+    let request = arguments.pictures.request(None);
     if let Err(why) = check_scale(&shot, &request) {
         let failed = misused(&why);
+        let why = Why::Words(why);
         return Err(Unopened { failed, why });
     }
     Reel::open(&shot, &request).map_err(|error| match error {

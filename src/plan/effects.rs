@@ -169,7 +169,6 @@ fn describe(thing: &str, w: Celerity) -> String {
     }
 }
 
-/// Whether nothing is seen behind the scene in any frame.
 /// Whether the background is surely black in this frame.
 pub(super) fn is_black(shot: &Shot, frame: u32) -> bool {
     let zero = |track: &Track<f64>| track.at(frame, shot.shot.frames) == 0.0;

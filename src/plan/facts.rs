@@ -2,6 +2,7 @@
 
 use super::effects::is_black;
 use super::motion::{MotionError, celerity};
+use crate::film::plot::quantity::without_zeros;
 use crate::relativity::Celerity;
 use crate::shot::{Shot, Switch};
 
@@ -100,14 +101,6 @@ fn rounded(value: f64) -> String {
         }
     };
     without_zeros(&plain).to_owned()
-}
-
-fn without_zeros(digits: &str) -> &str {
-    if digits.contains('.') {
-        digits.trim_end_matches('0').trim_end_matches('.')
-    } else {
-        digits
-    }
 }
 
 #[cfg(test)]

@@ -50,6 +50,9 @@ pub(super) fn parts(still: &Shot, pixels: Pixels<'_>) -> Parts {
     let used = still.used_spectra();
     if let Some(Value::Object(spectra)) = sections.get_mut("spectrum") {
         spectra.retain(|name, _| used.contains(name.as_str()));
+        if spectra.is_empty() {
+            sections.shift_remove("spectrum");
+        }
     }
     if let Some(image) = sections.get_mut("image") {
         image["aspect"] = json!(aspect(still.image.size));

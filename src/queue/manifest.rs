@@ -97,8 +97,8 @@ pub(super) struct Found {
     pub(super) found: u32,
     /// What the files say that it is made of.
     pub(super) fingerprint: String,
-    /// Names and lengths of the files.
-    pub(super) files: BTreeMap<String, u64>,
+    /// The files.
+    pub(super) files: Vec<FileRecord>,
 }
 
 /// What all manifests of a folder tell.

@@ -1,7 +1,7 @@
 //! A shot's frames in their folder: what each should be made of, and what is there.
 
 use super::because::difference;
-use super::manifest::{Found, Manifests, Record};
+use super::manifest::{FileRecord, Found, Manifests, Record};
 use super::names::Names;
 use super::shots::{Request, options};
 use crate::film::imprint;
@@ -168,24 +168,26 @@ impl Reel {
         Status::Fresh
     }
 
+    /// What a manifest tells of a frame's files, if they are of the frame as it should be.
+    pub fn written(&self, frame: u32, key: &FrameKey) -> Option<&[FileRecord]> {
+        let record = self.records.get(&frame);
+        let record = record.filter(|record| record.fingerprint == key.fingerprint);
+        let found = self.found.get(&frame);
+        let found = found.filter(|found| found.fingerprint == key.fingerprint);
+        let files = self.files(frame);
+        let all = |told: &&[FileRecord]| {
+            let is_told = |name: &String| told.iter().any(|file| file.name == *name);
+            files.iter().all(is_told)
+        };
+        let recorded = record.map(|record| record.files.as_slice()).filter(all);
+        recorded.or_else(|| found.map(|found| found.files.as_slice()).filter(all))
+    }
+
     /// Lengths that a manifest tells of a frame's files, in their order.
     fn told(&self, frame: u32, key: &FrameKey) -> Option<Vec<u64>> {
-        let files = self.files(frame);
-        let record = self.records.get(&frame).into_iter();
-        let mut record = record.filter(|record| record.fingerprint == key.fingerprint);
-        let recorded = record.next().and_then(|record| {
-            let length =
-                |name: &String| Some(record.files.iter().find(|file| file.name == *name)?.bytes);
-            files.iter().map(length).collect()
-        });
-        recorded.or_else(|| {
-            let found = self.found.get(&frame);
-            let found = found.filter(|found| found.fingerprint == key.fingerprint)?;
-            files
-                .iter()
-                .map(|name| found.files.get(name).copied())
-                .collect()
-        })
+        let written = self.written(frame, key)?;
+        let length = |name: String| Some(written.iter().find(|file| file.name == name)?.bytes);
+        self.files(frame).into_iter().map(length).collect()
     }
 
     /// What is to be written down of a frame that is fresh, so that it need not be decoded again;
@@ -194,12 +196,21 @@ impl Reel {
         if self.told(frame, key).is_some() {
             return None;
         }
-        let files = self.files(frame).into_iter().zip(self.lengths(frame));
+        let file = |name: String| {
+            let bytes = fs::read(self.folder.join(&name)).ok()?;
+            Some(FileRecord {
+                name,
+                bytes: bytes.len() as u64,
+                blake3: blake3::hash(&bytes).to_hex().to_string(),
+            })
+        };
         Some(Found {
             found: frame,
             fingerprint: key.fingerprint.clone(),
-            files: files
-                .map(|(name, length)| Some((name, length?)))
+            files: self
+                .files(frame)
+                .into_iter()
+                .map(file)
                 .collect::<Option<_>>()?,
         })
     }

@@ -10,7 +10,7 @@ use super::outlier::{Differences, Grid, Outlier};
 use super::still::{decode_as, shown_extension};
 use crate::film::decode::{Fault, read_bytes};
 use crate::plan::FrameKey;
-use crate::queue::{Record, Reel, Status, Stop};
+use crate::queue::{FileRecord, Reel, Status, Stop};
 use rayon::prelude::*;
 use serde_json::Value;
 use std::path::Path;
@@ -64,7 +64,11 @@ pub(super) fn is_asked(stop: &Stop) -> bool {
 fn look(reel: &Reel, frame: u32) -> (Vec<Finding>, Option<Grid>) {
     let key = reel.keys.frame(frame);
     let record = reel.records.get(&frame);
-    let same = record.is_some_and(|record| record.fingerprint == key.fingerprint);
+    let record = record.filter(|record| record.fingerprint == key.fingerprint);
+    let told = reel.written(frame, &key);
+    let told = told.or_else(|| Some(record?.files.as_slice()));
+    let same = told.is_some();
+    let told = told.unwrap_or_default();
     let status = reel.status(frame, &key);
     let mut findings = Vec::new();
     let mut grid = None;
@@ -76,7 +80,7 @@ fn look(reel: &Reel, frame: u32) -> (Vec<Finding>, Option<Grid>) {
     let shown = shown_extension(reel.shot());
     for file in reel.files(frame) {
         let extension = if file.ends_with(".exr") { "exr" } else { "png" };
-        match inspect(reel, record.filter(|_| same), &file, extension) {
+        match inspect(reel, told, &file, extension) {
             Ok(inspected) => {
                 let what = inspected.wrong.into_iter();
                 findings.extend(what.map(|(kind, why)| finding(frame, file.clone(), kind, why)));
@@ -87,7 +91,7 @@ fn look(reel: &Reel, frame: u32) -> (Vec<Finding>, Option<Grid>) {
             // Of something else, so of another size too: that goes without saying.
             Err(Fault::Size { .. }) if !same => {}
             Err(fault) => {
-                let why = cut_short(record.filter(|_| same), &reel.folder, &file, &fault);
+                let why = cut_short(told, &reel.folder, &file, &fault);
                 findings.push(finding(frame, file, kind_of(&fault), why));
             }
         }
@@ -110,10 +114,10 @@ struct Inspected {
     grid: Option<Grid>,
 }
 
-/// Reads a file; `record` is that of the frame, if it is of the frame as it should be.
+/// Reads a file; `told` is what a manifest tells of the frame's files as they should be.
 fn inspect(
     reel: &Reel,
-    record: Option<&Record>,
+    told: &[FileRecord],
     file: &str,
     extension: &str,
 ) -> Result<Inspected, Fault> {
@@ -121,7 +125,7 @@ fn inspect(
     let bytes = read_bytes(&reel.folder.join(file), size)?;
     let decoded = decode_as(reel.shot(), extension, &bytes, size)?;
     let mut wrong = Vec::new();
-    let written = record.and_then(|record| record.files.iter().find(|f| f.name == file));
+    let written = told.iter().find(|f| f.name == file);
     if written.is_some_and(|written| written.blake3 != blake3::hash(&bytes).to_hex().as_str()) {
         let why = "changed: its bytes are not those that were written; render it again";
         wrong.push((Kind::Changed, why.to_owned()));
@@ -145,8 +149,8 @@ fn inspect(
 }
 
 /// The fault in words; of a file that has fewer bytes than were written, how many are gone.
-fn cut_short(record: Option<&Record>, folder: &Path, file: &str, fault: &Fault) -> String {
-    let written = record.and_then(|record| record.files.iter().find(|f| f.name == file));
+fn cut_short(told: &[FileRecord], folder: &Path, file: &str, fault: &Fault) -> String {
+    let written = told.iter().find(|f| f.name == file);
     let length = std::fs::metadata(folder.join(file)).map_or(0, |m| m.len());
     match written {
         Some(written) if length > 0 && length < written.bytes => {

@@ -53,9 +53,15 @@ impl Shot {
         inline.chain(named).collect()
     }
 
-    /// The files that it names beside those of models, each with its key: spectra, sky, stars.
+    /// The files whose values it uses beside those of models, each with its key: spectra, sky, stars.
     pub fn data_files(&self) -> Vec<(String, &Path)> {
+        let used = self.used_spectra();
+        let is_used = |key: &str| {
+            let named = key.strip_prefix("spectrum.");
+            named.is_none_or(|name| used.contains(name))
+        };
         let tables = self.spectrum_tables().into_iter();
+        let tables = tables.filter(|(key, _)| is_used(key));
         let tables =
             tables.filter_map(|(key, table)| Some((format!("{key}.file"), table.file.as_deref()?)));
         let image = self.background.image.as_deref();

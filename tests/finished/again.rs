@@ -127,3 +127,35 @@ fn a_call_told_to_stop_while_it_assembles_ends_ffmpeg_and_leaves_nothing() {
         }
     }
 }
+
+#[test]
+fn every_file_that_cannot_be_made_is_named() {
+    let desk = Desk::small("gif = true\napng = true\npage = false");
+    // Folders in the places of both.
+    for name in ["passing.gif", "passing.apng"] {
+        fs::create_dir(desk.file(name)).unwrap();
+    }
+    let told = desk.call(&RENDER);
+    assert_eq!(told.status, 1);
+    for name in ["passing.gif", "passing.apng"] {
+        assert!(told.stderr.contains(name), "{name}: {}", told.stderr);
+    }
+}
+
+#[test]
+fn a_frame_that_was_found_without_a_record_is_verified_by_its_bytes_from_then_on() {
+    let desk = Desk::small("page = false");
+    fs::remove_file(desk.file("passing.manifest.jsonl")).unwrap();
+    render(&desk, &[]);
+    assert_eq!(desk.findings(), [""; 0]);
+    // A letter of the title, in the header's text: the picture itself stays.
+    let file = desk.file("passing.0004.png");
+    let mut bytes = fs::read(&file).unwrap();
+    let title = bytes
+        .windows(8)
+        .position(|eight| eight == b"A square")
+        .unwrap();
+    bytes[title] = b'B';
+    fs::write(&file, bytes).unwrap();
+    assert_eq!(desk.findings(), ["changed passing.0004.png"]);
+}

@@ -295,12 +295,8 @@ fn every_shot_of_the_call_is_in_the_answer_as_json() {
     for command in ["verify", "assemble"] {
         let answer = answer(command);
         assert_eq!(answer["shots"][0]["shot"], "wrong.toml");
-        assert!(
-            answer["shots"][0]["error"]
-                .as_str()
-                .unwrap()
-                .contains("[[model]]")
-        );
+        let mistakes = answer["shots"][0]["mistakes"].to_string();
+        assert!(mistakes.contains("[[model]]"), "{mistakes}");
         assert_eq!(answer["shots"][1]["shot"], "passing.toml");
     }
     // In the way of whoever claims.

@@ -73,6 +73,18 @@ fn a_changed_keyframe_changes_exactly_the_frames_that_it_moves() {
 #[test]
 fn what_no_pixel_shows_changes_nothing() {
     let desk = Desk::new();
+    desk.put("spare.csv", "400,0.1\n700,0.2\n");
+    let without = |text: &str| {
+        text.replace("\"paint\"", "0.5")
+            .replace("[spectrum.paint]\nfile = \"paint.csv\"\n", "")
+    };
+    let bare = without(SHOT);
+    let spare = format!("{bare}[spectrum.spare]\nconstant = 0.3\n");
+    assert_eq!(
+        differing(&desk, &bare, &spare),
+        [0; 0],
+        "the first spectrum of a shot, unused"
+    );
     for (from, to) in [
         ("# A comment.", ""),
         ("\"House\"", "\"Home\""),
@@ -88,6 +100,10 @@ fn what_no_pixel_shows_changes_nothing() {
         (
             "[spectrum.paint]",
             "[spectrum.spare]\nconstant = 0.3\n[spectrum.paint]",
+        ),
+        (
+            "[spectrum.paint]",
+            "[spectrum.spare]\nfile = \"spare.csv\"\n[spectrum.paint]",
         ),
         (
             "[output]",

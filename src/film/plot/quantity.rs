@@ -83,7 +83,8 @@ fn with_unit(value: f64, unit: &str) -> String {
     number(value) + unit
 }
 
-fn without_zeros(digits: &str) -> &str {
+/// Digits without zeros at their end, and without a point there.
+pub fn without_zeros(digits: &str) -> &str {
     if digits.contains('.') {
         digits.trim_end_matches('0').trim_end_matches('.')
     } else {

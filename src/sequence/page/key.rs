@@ -39,7 +39,7 @@ pub(super) fn key(reel: &Reel, run: &RunFacts, found: &[Status]) -> String {
     let parts = json!([
         EPOCH,
         env!("CARGO_PKG_VERSION"),
-        shot.path.to_string_lossy(),
+        shot.path.file_name().map(|name| name.to_string_lossy()),
         shot.shot.title,
         shot.shot.fps,
         reel.files(1),
