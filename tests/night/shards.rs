@@ -56,10 +56,11 @@ fn machines_deal_alike_though_one_cannot_read_a_folder() {
 }
 
 #[test]
-fn a_shard_without_frames_has_nothing_to_do_and_one_out_of_range_is_refused() {
+fn a_shard_without_frames_says_so_and_one_out_of_range_is_refused() {
     let desk = Desk::new();
     let outcome = desk.done("render passing.toml --frames 1-2 --shard 3/3");
-    assert_eq!(outcome.stderr, "");
+    let warning = "warning: no frame falls to shard 3/3: there are fewer traces than shards\n";
+    assert_eq!(outcome.stderr, warning);
     for shard in ["0/3", "4/3", "1", "a/b"] {
         let outcome = desk.call(&format!("render passing.toml --shard {shard}"));
         assert_eq!(outcome.status, Some(2));
