@@ -151,6 +151,13 @@ impl Foreman<'_> {
             if chunk.is_empty() || self.is_stopped() && patience.is_out() {
                 break;
             }
+            // A picture that there is no room for need not be made.
+            let (lost, chunk): (Vec<_>, Vec<_>) = chunk
+                .into_iter()
+                .partition(|((ready, _), _)| jobs[ready.task.job].halted.is_some());
+            for ((ready, _), _) in lost {
+                self.progress.forgo(ready.task.work);
+            }
             let begun = Instant::now();
             let encoded: Vec<_> = chunk
                 .into_par_iter()

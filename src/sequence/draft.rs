@@ -23,6 +23,8 @@ pub(super) struct Draft {
 #[derive(Debug)]
 struct Ink {
     file: BufWriter<File>,
+    /// Where the file will be, for messages.
+    path: PathBuf,
     failed: Option<io::Error>,
 }
 
@@ -47,6 +49,7 @@ impl Draft {
             let file = builder.tempfile_in(folder)?;
             let ink = Ink {
                 file: BufWriter::new(file.as_file().try_clone()?),
+                path: path.clone(),
                 failed: None,
             };
             Ok((file, Rc::new(RefCell::new(ink))))
@@ -69,10 +72,9 @@ impl Draft {
     /// could not be written.
     pub(super) fn keep(self) -> io::Result<PathBuf> {
         let Self { file, path, ink } = self;
-        let persisted = ink.borrow_mut().finish().and_then(|()| {
-            file.as_file().sync_all()?;
-            Ok(file.persist(&path)?)
-        });
+        ink.borrow_mut().finish()?;
+        let synced = file.as_file().sync_all();
+        let persisted = synced.and_then(|()| Ok(file.persist(&path)?));
         persisted.map_err(|error| explain(&path, &error))?;
         if let Some(folder) = path.parent() {
             // That the name lasts is for the file system to promise, and some cannot.
@@ -86,13 +88,17 @@ impl Ink {
     fn finish(&mut self) -> io::Result<()> {
         match self.failed.take() {
             Some(error) => Err(error),
-            None => self.file.flush(),
+            None => {
+                let flushed = self.file.flush();
+                flushed.map_err(|error| explain(&self.path, &error))
+            }
         }
     }
 
-    /// Remembers the first failure; its caller gets another of its kind.
+    /// Remembers the first failure, with what to do about it; its caller gets another of its kind.
     fn told<T>(&mut self, result: io::Result<T>) -> io::Result<T> {
         result.map_err(|error| {
+            let error = explain(&self.path, &error);
             let again = io::Error::new(error.kind(), error.to_string());
             self.failed.get_or_insert(error);
             again

@@ -159,3 +159,25 @@ fn a_frame_that_was_found_without_a_record_is_verified_by_its_bytes_from_then_on
     fs::write(&file, bytes).unwrap();
     assert_eq!(desk.findings(), ["changed passing.0004.png"]);
 }
+
+/// In the middle of a file as at its end.
+#[cfg(unix)]
+#[test]
+fn a_file_that_cannot_be_written_says_where_and_what_to_do() {
+    let desk = Desk::small("gif = true\napng = true\nsheet = { columns = 4 }\npage = false");
+    let line = "ulimit -f 3; exec \"$0\" assemble passing.toml";
+    let told = std::process::Command::new("sh")
+        .args(["-c", line, env!("CARGO_BIN_EXE_restframe")])
+        .current_dir(desk.path(""))
+        .output()
+        .unwrap();
+    assert_eq!(told.status.code(), Some(1));
+    let said = String::from_utf8(told.stderr).unwrap();
+    for name in ["passing.gif", "passing.apng", "passing.sheet.png"] {
+        let place = format!("cannot write renders/passing/{name}: ");
+        let lines: Vec<&str> = said.lines().filter(|line| line.contains(&place)).collect();
+        assert_eq!(lines.len(), 1, "{name}: {said}");
+        assert!(lines[0].contains("raise the limit on file sizes"), "{said}");
+    }
+    assert_eq!(desk.names(".tmp"), [""; 0]);
+}
