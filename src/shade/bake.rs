@@ -1,14 +1,17 @@
 //! What a shader is made of: the curves of materials and lamps, baked, and their tables.
 
 use super::curve::Curve;
+use super::narrow::Narrow;
 use super::received::{Received, finite};
 use super::table::XyzTable;
 use super::thermal::Glow;
 use crate::plan::Called;
 use crate::scene::{Material, Reflectance, Scene, Thermal};
 use crate::shot::{self, Accuracy, Spectra};
-use crate::spectrum::{Sensor, Spectrum};
+use crate::spectrum::quadrature::cuts_nm;
+use crate::spectrum::{Fine, FineSensor, Quadrature, Sensor, Spectrum, planck};
 use crate::trace::Term;
+use std::cell::OnceCell;
 use std::sync::Arc;
 
 /// A material's curves.
@@ -19,6 +22,8 @@ pub(super) struct MaterialCurves {
     pub(super) glow: Option<Glow>,
     mirror: Option<Curve>,
     refraction: Option<Curve>,
+    /// Whether a curve that makes light of its own or of lamps is narrow.
+    pub(super) narrow: bool,
 }
 
 impl MaterialCurves {
@@ -30,7 +35,7 @@ impl MaterialCurves {
     /// Memory of curves and tables, bytes.
     pub(super) fn bytes(&self) -> usize {
         let reflecting = |r: &Reflecting| {
-            let tables = r.tables.iter().map(XyzTable::bytes);
+            let tables = r.tables.iter().flatten().map(XyzTable::bytes);
             r.reflectance.bytes() + tables.sum::<usize>()
         };
         let passing = [&self.mirror, &self.refraction].into_iter().flatten();
@@ -52,8 +57,8 @@ impl MaterialCurves {
 /// A reflectance, and XYZ of its product with each emitter for lamps that move with the surface.
 pub(super) struct Reflecting {
     pub(super) reflectance: Curve,
-    /// By emitter; empty where nothing is tabulated.
-    pub(super) tables: Vec<XyzTable>,
+    /// By emitter; None where none is made.
+    pub(super) tables: Vec<Option<XyzTable>>,
 }
 
 /// A curve that is seen as it is.
@@ -61,7 +66,7 @@ pub(super) struct Sight {
     pub(super) curve: Curve,
     pub(super) table: XyzTable,
     /// Whether the table stands in for the sum over wavelengths.
-    tabulated: bool,
+    pub(super) tabulated: bool,
 }
 
 impl Sight {
@@ -135,6 +140,10 @@ pub(super) struct Bake<'a> {
     pub(super) settings: &'a Settings<'a>,
     /// Whether tables stand in for sums over wavelengths.
     pub(super) tabulated: bool,
+    /// The integrals that the sensor's channels stand for.
+    pub(super) quadrature: &'a Quadrature,
+    /// Made where a curve is narrow.
+    pub(super) fine: OnceCell<Arc<FineSensor>>,
 }
 
 /// Most pairs of material and emitter that are tabulated, some 100 kB each; with more, every lamp
@@ -143,27 +152,55 @@ pub(super) const MOST_TABLES: usize = 1000;
 
 impl Bake<'_> {
     pub(super) fn curve(&self, spectrum: &Arc<Spectrum>, weight: f64, limit: f64) -> Curve {
-        let baked = self.settings.accuracy.spectra == Spectra::Grid;
-        let reach = self.settings.reach + self.settings.lamp_reach;
-        let reach = if self.settings.called.doppler {
+        self.narrowed(self.smooth_curve(spectrum, weight, limit))
+    }
+
+    /// A curve that counts as smooth, whatever it is.
+    pub(super) fn smooth_curve(&self, spectrum: &Arc<Spectrum>, weight: f64, limit: f64) -> Curve {
+        let curve = Curve::new(spectrum, weight, limit, self.sensor.axis());
+        match self.settings.accuracy.spectra {
+            Spectra::Grid => curve.baked_within(self.reach()),
+            _ => curve,
+        }
+    }
+
+    fn narrowed(&self, curve: Curve) -> Curve {
+        match self.settings.accuracy.spectra {
+            Spectra::Grid | Spectra::Spline => {
+                curve.narrowed_within(self.reach(), |fine, spectrum| {
+                    let sensor = Arc::clone(self.fine());
+                    Narrow::new(fine, spectrum, self.reach(), sensor)
+                })
+            }
+            Spectra::Exact | Spectra::Lines | Spectra::Rgb => curve,
+        }
+    }
+
+    /// Largest |ln D| under which any curve is read.
+    fn reach(&self) -> f64 {
+        self.shifted(self.settings.reach + self.settings.lamp_reach)
+    }
+
+    /// A reach, or 0 where curves do not shift.
+    fn shifted(&self, reach: f64) -> f64 {
+        if self.settings.called.doppler {
             reach
         } else {
             0.0
-        };
-        Curve::new(
-            spectrum,
-            weight,
-            limit,
-            self.sensor.axis(),
-            baked.then_some(reach),
-        )
+        }
+    }
+
+    /// The sensor at the nodes of narrow curves.
+    fn fine(&self) -> &Arc<FineSensor> {
+        let make = || Arc::new(FineSensor::new(self.sensor, self.quadrature));
+        self.fine.get_or_init(make)
     }
 
     pub(super) fn surface(&self, material: &Material, emitters: &[Sight]) -> MaterialCurves {
         let reflecting = |weight: f64, spectrum: &Arc<Spectrum>| {
             let reflectance = self.curve(spectrum, weight, 1.0);
-            let tabulated = emitters.iter().filter(|_| self.tabulated);
-            let tables = tabulated
+            let tables = emitters
+                .iter()
                 .map(|e| self.product(&reflectance, &e.curve))
                 .collect();
             Reflecting {
@@ -177,7 +214,8 @@ impl Bake<'_> {
             .thermal
             .as_ref()
             .filter(|_| self.settings.called.thermal);
-        MaterialCurves {
+        let mut curves = MaterialCurves {
+            narrow: false,
             diffuse: material
                 .diffuse
                 .as_ref()
@@ -195,18 +233,42 @@ impl Bake<'_> {
             glow: thermal.map(|t| self.glow(t)),
             mirror: passing(material.mirror.as_ref()),
             refraction: passing(material.refraction.as_ref().map(|r| &r.transmittance)),
-        }
+        };
+        let reflectances = curves.reflecting().flatten().map(|r| &r.reflectance);
+        let sources = curves.emission.iter().map(|sight| &sight.curve);
+        let emissivity = curves.glow.iter().map(|glow| glow.parts().1);
+        let narrow = reflectances
+            .chain(sources)
+            .chain(emissivity)
+            .any(|curve| curve.narrow().is_some());
+        curves.narrow = narrow;
+        curves
     }
 
     fn glow(&self, thermal: &Thermal) -> Glow {
         // Read at exact wavelengths, so not baked.
-        let emissivity = Curve::new(&thermal.emissivity, 1.0, 1.0, self.sensor.axis(), None);
-        let glow = Glow::new(thermal, emissivity);
+        let emissivity = Curve::new(&thermal.emissivity, 1.0, 1.0, self.sensor.axis());
+        let glow = Glow::new(thermal, self.narrowed(emissivity));
+        // Planck's curve is nowhere constant: as far as D reaches.
+        let everywhere = Some([f64::MIN_POSITIVE, f64::MAX]);
+        let (kelvin, emissivity) = glow.parts();
+        if emissivity.narrow().is_some() {
+            let light = |nm| emissivity.at(nm) * planck::radiance(nm, kelvin);
+            let mut cuts = Vec::new();
+            cuts_nm(emissivity.spectrum(), 1.0, &mut cuts);
+            let reach = self.shifted(self.settings.reach);
+            // What goes on beyond its points is no longer constant.
+            let support = emissivity
+                .narrow()
+                .and_then(Narrow::extent_nm)
+                .or(everywhere);
+            if let Some(table) = self.fine_table(reach, support, &cuts, light) {
+                return glow.with_table(table);
+            }
+        }
         if !self.tabulated {
             return glow;
         }
-        // Planck's curve is nowhere constant: as far as D reaches.
-        let everywhere = Some([f64::MIN_POSITIVE, f64::MAX]);
         glow.tabulated(self.sensor.axis(), |read| {
             self.table(self.settings.reach, everywhere, read)
         })
@@ -219,28 +281,63 @@ impl Bake<'_> {
 
     pub(super) fn sight(&self, curve: Curve, reach: f64) -> Sight {
         let support = curve.support_nm();
-        let table = self.table(reach, support, |d, out| curve.read(d, out));
+        let (table, tabulated) = match curve.narrow() {
+            Some(narrow) => (narrow.table(self.shifted(reach), support), true),
+            None => (
+                self.table(reach, support, |d, out| curve.read(d, out)),
+                self.tabulated,
+            ),
+        };
         Sight {
             curve,
             table,
-            tabulated: self.tabulated,
+            tabulated,
         }
     }
 
-    /// XYZ of reflectance times emitter under one shift.
-    fn product(&self, reflectance: &Curve, emitter: &Curve) -> XyzTable {
+    /// XYZ of reflectance times emitter under one shift, where a table is made of it.
+    fn product(&self, reflectance: &Curve, emitter: &Curve) -> Option<XyzTable> {
         let support = match (reflectance.support_nm(), emitter.support_nm()) {
             (Some([a, b]), Some([c, d])) => Some([a.min(c), b.max(d)]),
             (one, other) => one.or(other),
         };
+        if [reflectance, emitter]
+            .iter()
+            .any(|curve| curve.narrow().is_some())
+        {
+            let mut cuts = Vec::new();
+            for curve in [reflectance, emitter] {
+                cuts_nm(curve.spectrum(), 1.0, &mut cuts);
+            }
+            let reach = self.shifted(self.settings.reach);
+            let product = |nm| finite(reflectance.at(nm) * emitter.at(nm));
+            return self.fine_table(reach, support, &cuts, product);
+        }
+        if !self.tabulated {
+            return None;
+        }
         let mut light = vec![0.0; self.sensor.axis().count()];
-        self.table(self.settings.reach, support, |d, out| {
+        Some(self.table(self.settings.reach, support, |d, out| {
             let factor = emitter.read(d, &mut light) * reflectance.read(d, out);
             for (out, light) in out.iter_mut().zip(&light) {
                 *out *= light;
             }
             factor
-        })
+        }))
+    }
+
+    /// A table of a curve that is narrow somewhere, unless it would be too large.
+    fn fine_table(
+        &self,
+        reach: f64,
+        support_nm: Option<[f64; 2]>,
+        cuts_nm: &[f64],
+        curve: impl Fn(f64) -> f64,
+    ) -> Option<XyzTable> {
+        let axis = self.sensor.axis();
+        let fine = Fine::new(axis, reach, support_nm?, cuts_nm, curve)?;
+        XyzTable::fits(axis, reach, support_nm)
+            .then(|| XyzTable::of_fine(self.fine(), &fine, reach, support_nm))
     }
 
     /// A table over |ln D| up to `reach`, or at D = 1 alone where curves do not shift or sums take
@@ -251,8 +348,8 @@ impl Bake<'_> {
         support_nm: Option<[f64; 2]>,
         read: impl FnMut(f64, &mut [f32]) -> f64,
     ) -> XyzTable {
-        let reach = if self.settings.called.doppler && self.tabulated {
-            reach
+        let reach = if self.tabulated {
+            self.shifted(reach)
         } else {
             0.0
         };

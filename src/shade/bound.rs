@@ -27,7 +27,11 @@ impl CurveShader {
             if curve.constant().is_some() {
                 return Roughness::CONSTANT;
             }
-            Roughness::of(|nm| curve.at(nm), curve.spectrum(), range_nm, grid.step())
+            let rough = Roughness::of(|nm| curve.at(nm), curve.spectrum(), range_nm, grid.step());
+            match curve.narrow() {
+                Some(_) => rough.narrow(),
+                None => rough,
+            }
         };
         let lamps: Vec<Roughness> = self.emitters.iter().map(|e| rough(&e.curve, far)).collect();
         let mut worst = 0.0f64;

@@ -274,12 +274,12 @@ struct Hold<'a, H> {
 
 impl<H: Holding> Hold<'_, H> {
     fn light(&self, spectrum: &Arc<Spectrum>, weight: f64) -> H::Held {
-        let curve = Curve::new(spectrum, weight, f64::INFINITY, self.axis, None);
+        let curve = Curve::new(spectrum, weight, f64::INFINITY, self.axis);
         self.holding.light(|nm| curve.at(nm))
     }
 
     fn share(&self, term: &Reflectance) -> H::Held {
-        let curve = Curve::new(&term.spectrum, term.weight, 1.0, self.axis, None);
+        let curve = Curve::new(&term.spectrum, term.weight, 1.0, self.axis);
         self.holding.share(&curve)
     }
 
@@ -294,7 +294,7 @@ impl<H: Holding> Hold<'_, H> {
                 .as_ref()
                 .map(|e| self.light(&e.spectrum, e.weight)),
             thermal: glow.map(|thermal| {
-                let emissivity = Curve::new(&thermal.emissivity, 1.0, 1.0, self.axis, None);
+                let emissivity = Curve::new(&thermal.emissivity, 1.0, 1.0, self.axis);
                 let glow = Glow::new(thermal, emissivity);
                 self.holding.light(|nm| glow.at(nm))
             }),

@@ -1,7 +1,8 @@
 //! A spectrum as the shader holds it: baked on the sensor's axis, or as its author wrote it.
 
-use crate::spectrum::{Baked, LogAxis, Smoothing, Spectrum};
-use std::sync::Arc;
+use super::narrow::Narrow;
+use crate::spectrum::{Baked, Fine, LogAxis, Smoothing, Spectrum};
+use std::sync::{Arc, OnceLock};
 
 /// weight × spectrum, at most `limit`, ready to be read under any shift.
 pub(super) struct Curve {
@@ -10,33 +11,72 @@ pub(super) struct Curve {
     limit: f64,
     axis: LogAxis,
     baked: Option<Baked>,
+    narrow: Option<Narrow>,
+    /// Where a baked curve is read at any place: made when it is first asked for.
+    fine: OnceLock<Option<Fine>>,
+    reach: f64,
 }
 
 impl Curve {
-    /// With accuracy.spectra = "grid" the curve is baked for |ln D| up to `reach`, unless that would
-    /// be too large a table; with "spline" it is not, and `reach` is None. A reflectance has limit 1: what a spline overshoots between
-    /// authored points is clamped.
-    pub(super) fn new(
-        spectrum: &Arc<Spectrum>,
-        weight: f64,
-        limit: f64,
-        axis: LogAxis,
-        reach: Option<f64>,
-    ) -> Self {
-        let mut curve = Self {
+    /// As its author wrote it. A reflectance has limit 1: what a spline overshoots between authored
+    /// points is clamped.
+    pub(super) fn new(spectrum: &Arc<Spectrum>, weight: f64, limit: f64, axis: LogAxis) -> Self {
+        Self {
             spectrum: Arc::clone(spectrum),
             weight,
             limit,
             axis,
             baked: None,
-        };
-        curve.baked = reach.and_then(|reach| {
-            let smoothing = Smoothing::of(spectrum);
-            Baked::new(axis, reach, curve.support_nm(), smoothing, |nm| {
-                curve.at(nm)
-            })
+            narrow: None,
+            fine: OnceLock::new(),
+            reach: 0.0,
+        }
+    }
+
+    /// Baked for |ln D| up to `reach`, unless that would be too large a table.
+    pub(super) fn baked_within(mut self, reach: f64) -> Self {
+        let smoothing = Smoothing::of(&self.spectrum);
+        self.reach = reach;
+        self.baked = Baked::new(self.axis, reach, self.support_nm(), smoothing, |nm| {
+            self.at(nm)
         });
-        curve
+        self
+    }
+
+    /// Held so that none of its light falls between wavelengths, if it is so narrow that some would:
+    /// `narrow` makes what it is then held as, and what is baked is each wavelength's share.
+    pub(super) fn narrowed_within(
+        mut self,
+        reach: f64,
+        narrow: impl FnOnce(Fine, &Spectrum) -> Option<Narrow>,
+    ) -> Self {
+        if !Fine::is_worth_a_look(self.axis, &self.spectrum) {
+            return self;
+        }
+        let Some(fine) = Fine::of(self.axis, reach, &self.spectrum, |nm| self.at(nm)) else {
+            return self;
+        };
+        let judged;
+        let baked = match &self.baked {
+            Some(baked) => Some(baked),
+            None => {
+                judged = Self::new(&self.spectrum, self.weight, self.limit, self.axis)
+                    .baked_within(reach);
+                judged.baked.as_ref()
+            }
+        };
+        if baked.is_none_or(|baked| fine.is_served_by(baked)) {
+            return self;
+        }
+        let support = self.support_nm();
+        let means = Baked::new(self.axis, reach, support, Smoothing::Mean, |nm| {
+            fine.near(nm)
+        });
+        if let (Some(means), Some(narrow)) = (means, narrow(fine, &self.spectrum)) {
+            self.baked = Some(means);
+            self.narrow = Some(narrow);
+        }
+        self
     }
 
     /// The exact value at a wavelength of the source's frame.
@@ -46,9 +86,12 @@ impl Curve {
             .min(f64::MAX)
     }
 
-    /// Memory of its table, bytes.
+    /// Memory of its tables, bytes.
     pub(super) fn bytes(&self) -> usize {
+        let fine = self.fine.get().and_then(Option::as_ref);
         self.baked.as_ref().map_or(0, Baked::bytes)
+            + self.narrow.as_ref().map_or(0, Narrow::bytes)
+            + fine.map_or(0, Fine::bytes)
     }
 
     /// The value everywhere, for a curve that is the same everywhere.
@@ -66,14 +109,35 @@ impl Curve {
         self.spectrum.support_nm()
     }
 
-    /// The baked form, or None where the curve is held as its author wrote it.
+    /// The baked form, or None where the curve is held as its author wrote it. Of a narrow curve
+    /// its sums over wavelengths are not those of the curve.
     #[inline(always)]
     pub(super) fn baked(&self) -> Option<&Baked> {
         self.baked.as_ref()
     }
 
+    /// What a curve is held as whose light would fall between wavelengths.
+    #[inline(always)]
+    pub(super) fn narrow(&self) -> Option<&Narrow> {
+        self.narrow.as_ref()
+    }
+
+    /// The curve at e^`ln_shift`·λ, λ at a place in nodes of the axis: of a baked curve between
+    /// means about the nodes.
+    #[inline]
+    pub(super) fn at_node(&self, ln_shift: f64, node: f64, nm: impl Fn(f64) -> f64) -> f64 {
+        let fine = self.baked.as_ref().and_then(|_| {
+            let make = || Fine::of(self.axis, self.reach, &self.spectrum, |nm| self.at(nm));
+            self.fine.get_or_init(make).as_ref()
+        });
+        match fine {
+            Some(fine) => fine.at(ln_shift, node),
+            None => self.at(ln_shift.exp() * nm(node)),
+        }
+    }
+
     /// Writes the curve at `shift`·λ for the axis' wavelengths; `out` is to be multiplied by what
-    /// is returned.
+    /// is returned. Of a narrow curve these are means over a spacing.
     #[inline(always)]
     pub(super) fn read(&self, shift: f64, out: &mut [f32]) -> f64 {
         match &self.baked {

@@ -11,8 +11,9 @@ use super::table::XyzTable;
 use super::thermal::BlackBodies;
 use crate::scene::Scene;
 use crate::shot::Spectra;
-use crate::spectrum::Sensor;
+use crate::spectrum::{Quadrature, Sensor};
 use crate::trace::{Node, Root, Seen, ShadeTrees, Surface};
+use std::cell::OnceCell;
 use std::sync::Arc;
 
 /// Turns shade trees to light by curves over the sensor's wavelengths.
@@ -30,11 +31,18 @@ pub(super) struct CurveShader {
     pub(super) tabulated: bool,
     /// Largest |ln D| between a surface and the camera, and between a lamp and the camera.
     pub(super) reach: [f64; 2],
+    /// What narrow curves that meet are summed by; None where none is.
+    pub(super) quadrature: Option<Quadrature>,
 }
 
 impl CurveShader {
     /// Prepares the curves of a scene.
-    pub(super) fn new(scene: &Scene, settings: &Settings<'_>, sensor: Sensor) -> Self {
+    pub(super) fn new(
+        scene: &Scene,
+        settings: &Settings<'_>,
+        sensor: Sensor,
+        quadrature: &Quadrature,
+    ) -> Self {
         let axis = sensor.axis();
         let (lamps, spectra) = distinct_emitters(scene);
         let tabulated = settings.accuracy.spectra == Spectra::Grid
@@ -44,6 +52,8 @@ impl CurveShader {
             sensor: &sensor,
             settings,
             tabulated,
+            quadrature,
+            fine: OnceCell::new(),
         };
         let emitters: Vec<Sight> = spectra
             .iter()
@@ -71,6 +81,7 @@ impl CurveShader {
             bodies,
             tabulated,
             reach: [settings.reach, settings.reach + settings.lamp_reach],
+            quadrature: bake.fine.get().map(|_| quadrature.clone()),
             sensor,
         }
     }
@@ -134,6 +145,10 @@ impl CurveShader {
                 if grey > 0.0 {
                     add(&mut sum, self.node_xyz(trees, node, scratch), grey);
                 }
+                continue;
+            }
+            if self.quadrature.is_some() && self.is_narrow(trees, nodes, node) {
+                add(&mut sum, self.narrow_node(trees, nodes, node), 1.0);
                 continue;
             }
             let mut light = std::mem::take(&mut scratch.radiance);

@@ -64,7 +64,7 @@ impl CurveShader {
     }
 
     /// All light of a node as the camera would see it directly.
-    fn sources(&self, trees: &ShadeTrees, node: &Node) -> Vec<Source<'_>> {
+    pub(super) fn sources(&self, trees: &ShadeTrees, node: &Node) -> Vec<Source<'_>> {
         let mut sources = Vec::new();
         let doppler = node.doppler;
         match &node.seen {
@@ -142,17 +142,18 @@ impl CurveShader {
 }
 
 /// A curve under a shift.
+#[derive(Clone, Copy)]
 pub(super) struct Reading<'a> {
     pub(super) curve: &'a Curve,
     pub(super) shift: f64,
 }
 
 impl Reading<'_> {
-    fn at(&self, nm: f64) -> f64 {
+    pub(super) fn at(&self, nm: f64) -> f64 {
         self.curve.at(self.shift * nm)
     }
 
-    fn add_cuts(&self, cuts: &mut Vec<f64>) {
+    pub(super) fn add_cuts(&self, cuts: &mut Vec<f64>) {
         cuts_nm(self.curve.spectrum(), self.shift, cuts);
     }
 }
@@ -180,8 +181,8 @@ pub(super) enum Source<'a> {
 
 /// A term of a surface under lamps.
 pub(super) struct Reflected<'a> {
-    factor: f64,
-    reading: Reading<'a>,
+    pub(super) factor: f64,
+    pub(super) reading: Reading<'a>,
 }
 
 impl Source<'_> {
@@ -200,6 +201,15 @@ impl Source<'_> {
                     .map(|term| finite(term.factor * light) * term.reading.at(nm))
                     .sum()
             }
+        }
+    }
+
+    /// Of what is no product of curves alone, what they leave: [`Source::at`] over an emissivity, or all.
+    pub(super) fn rest_at(&self, nm: f64) -> f64 {
+        match self {
+            Self::Glow(glow) => glow.black_at(nm),
+            Self::BlackBody { .. } | Self::Painted { .. } => self.at(nm),
+            Self::Curve { .. } | Self::Lit { .. } => 1.0,
         }
     }
 

@@ -1,7 +1,9 @@
 //! Light of lamps on a surface, under the shifts of both.
 
 use super::bake::MaterialCurves;
+use super::curve::Curve;
 use super::curves::{CurveShader, add};
+use super::exact::Reading;
 use super::received::finite;
 use super::shader::ShadeScratch;
 use crate::trace::Lit;
@@ -10,6 +12,10 @@ use crate::trace::Lit;
 struct Shifts {
     factors: [f64; 2],
     ln: [f64; 2],
+}
+
+fn any_narrow(one: &Curve, other: &Curve) -> bool {
+    one.narrow().is_some() || other.narrow().is_some()
 }
 
 impl CurveShader {
@@ -33,7 +39,8 @@ impl CurveShader {
             let shares = [scale * lit.diffuse, scale * lit.highlight].map(finite);
             let lamp_shift = self.received.shift(lit.doppler);
             let shared = lamp_shift == 1.0 || self.emitters[emitter].curve.constant().is_some();
-            if shared && self.tabulated {
+            let mut terms = surface.reflecting().flatten();
+            if shared && terms.all(|term| term.tables[emitter].is_some()) {
                 scratch.comoving[emitter][0] += shares[0];
                 scratch.comoving[emitter][1] += shares[1];
             } else {
@@ -48,13 +55,10 @@ impl CurveShader {
         for (emitter, shares) in scratch.comoving.iter().enumerate() {
             for (term, share) in surface.reflecting().zip(shares) {
                 if let Some(reflecting) = term
+                    && let Some(table) = &reflecting.tables[emitter]
                     && *share > 0.0
                 {
-                    add(
-                        &mut sum,
-                        reflecting.tables[emitter].at(ln_shift),
-                        finite(*share),
-                    );
+                    add(&mut sum, table.at(ln_shift), finite(*share));
                 }
             }
         }
@@ -85,8 +89,12 @@ impl CurveShader {
                 reflectance.baked(),
                 emitter.curve.baked(),
             ) {
-                (Some(constant), ..) if self.tabulated => {
+                (Some(constant), ..) if emitter.tabulated => {
                     emitter.table.at(ln_lamp).map(|v| v * constant)
+                }
+                _ if self.quadrature.is_some() && any_narrow(reflectance, &emitter.curve) => {
+                    let curves = [reflectance, &emitter.curve];
+                    self.narrow_lamp_xyz(curves, shifts, scratch)
                 }
                 (None, Some(reflectance), Some(light)) => {
                     let peak = reflectance.peak() * light.peak();
@@ -106,6 +114,30 @@ impl CurveShader {
             add(&mut sum, xyz, share);
         }
         sum
+    }
+
+    /// Light of a lamp of 1 on a reflectance, of which at least one is narrow.
+    fn narrow_lamp_xyz(
+        &self,
+        curves: [&Curve; 2],
+        shifts: &Shifts,
+        scratch: &mut ShadeScratch,
+    ) -> [f64; 3] {
+        let (narrow, ln_shift, smooth, shift) = match curves.map(Curve::narrow) {
+            [Some(narrow), None] => (narrow, shifts.ln[0], curves[1], shifts.factors[1]),
+            [None, Some(narrow)] => (narrow, shifts.ln[1], curves[0], shifts.factors[0]),
+            _ => {
+                let reading = |i: usize| Reading {
+                    curve: curves[i],
+                    shift: shifts.factors[i],
+                };
+                return self.meeting(&reading(0), &reading(1));
+            }
+        };
+        let ln_own = shift.ln();
+        let at = |node| smooth.at_node(ln_own, node, |node| narrow.wavelength_nm(node));
+        let [shape, _] = scratch.buffers(self.sensor.axis().count());
+        narrow.times(ln_shift, at, shape, |shape| smooth.read(shift, shape))
     }
 
     /// Adds the spectral radiance that one lamp makes of a surface.

@@ -22,6 +22,7 @@ mod curves;
 mod exact;
 mod lamps;
 mod lines;
+mod narrow;
 mod passage;
 mod radiance;
 pub mod received;

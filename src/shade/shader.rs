@@ -43,22 +43,22 @@ impl Shader {
             SensorColor::Cie1931 => Sensor::cie1931(axis),
             SensorColor::Bands => Sensor::bands(axis),
         };
-        let grid = settings.accuracy.spectra == Spectra::Grid;
-        let reference = grid.then(|| quadrature(settings.sensor));
+        let exact = quadrature(settings.sensor);
         let held = match settings.accuracy.spectra {
             Spectra::Grid | Spectra::Spline => {
-                Held::Curves(CurveShader::new(scene, settings, sensor.clone()))
+                Held::Curves(CurveShader::new(scene, settings, sensor.clone(), &exact))
             }
             Spectra::Exact => {
-                let curves = CurveShader::new(scene, settings, sensor.clone());
-                Held::Exact(curves, quadrature(settings.sensor))
+                let curves = CurveShader::new(scene, settings, sensor.clone(), &exact);
+                Held::Exact(curves, exact.clone())
             }
             Spectra::Lines => Held::Lines(Box::new(LineShader::new(scene, settings, axis))),
             Spectra::Rgb => Held::Rgb(Box::new(RgbShader::new(scene, settings, &sensor))),
         };
+        let grid = settings.accuracy.spectra == Spectra::Grid;
         Self {
             held,
-            reference,
+            reference: grid.then_some(exact),
             sensor,
         }
     }

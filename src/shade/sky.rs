@@ -178,7 +178,7 @@ impl Painted {
         let mut painted = Self {
             image,
             scale,
-            d65: bake.curve(&d65, 1.0, f64::INFINITY),
+            d65: bake.smooth_curve(&d65, 1.0, f64::INFINITY),
             wavelengths_nm: wavelengths_nm.iter().map(|nm| *nm as f32).collect(),
             xyz_from_rgb: None,
         };

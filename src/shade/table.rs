@@ -1,7 +1,7 @@
 //! The sensor's channels of a curve as a function of ln D (XYZ, or band totals): where one shift
 //! serves everything that makes the curve, no wavelength need be looked at when a ray is shaded.
 
-use crate::spectrum::{LogAxis, Sensor, catmull_rom};
+use crate::spectrum::{Fine, FineSensor, LogAxis, MOST_ROWS, Sensor, catmull_rom};
 
 /// Entries between two neighbours of the sensor's axis. With 4 the cubic between entries is within
 /// 2.3e-5 of the sum over wavelengths it stands for, for a band of σ = 9 nm (`tests/shading.rs`);
@@ -35,6 +35,12 @@ impl XyzTable {
         per_unit(axis) <= MOST
     }
 
+    /// Whether a table of a curve that is narrow somewhere is worth making.
+    pub(super) fn fits(axis: LogAxis, reach: f64, support_nm: Option<[f64; 2]>) -> bool {
+        let [low, high] = interesting(axis, reach, support_nm);
+        (high - low) * per_unit(axis) <= MOST_ROWS
+    }
+
     /// Distance of entries in ln D.
     pub(super) fn spacing(axis: LogAxis) -> f64 {
         1.0 / per_unit(axis)
@@ -49,22 +55,37 @@ impl XyzTable {
         support_nm: Option<[f64; 2]>,
         mut read: impl FnMut(f64, &mut [f32]) -> f64,
     ) -> Self {
-        let axis = sensor.axis();
+        let mut shape = vec![0.0; sensor.axis().count()];
+        Self::of(sensor.axis(), reach, support_nm, |ln_doppler| {
+            let factor = read(ln_doppler.exp(), &mut shape);
+            sensor.xyz_of_shape(&shape).map(|v| v * factor)
+        })
+    }
+
+    /// The same of a curve held as `fine`.
+    pub(super) fn of_fine(
+        sensor: &FineSensor,
+        fine: &Fine,
+        reach: f64,
+        support_nm: Option<[f64; 2]>,
+    ) -> Self {
+        Self::of(sensor.axis(), reach, support_nm, |ln_doppler| {
+            sensor.channels(fine, ln_doppler)
+        })
+    }
+
+    fn of(
+        axis: LogAxis,
+        reach: f64,
+        support_nm: Option<[f64; 2]>,
+        channels: impl FnMut(f64) -> [f64; 3],
+    ) -> Self {
         let per_unit = per_unit(axis);
-        let [low, high] = interesting(axis, support_nm);
-        let low = low.max(-reach).min(reach);
-        let high = high.min(reach).max(low);
+        let [low, high] = interesting(axis, reach, support_nm);
         let count = ((high - low) * per_unit).ceil() as usize + 4;
-        let mut shape = vec![0.0; axis.count()];
-        let entries = (0..count)
-            .map(|i| {
-                let ln_doppler = low + (i as f64 - 1.0) / per_unit;
-                let factor = read(ln_doppler.exp(), &mut shape);
-                sensor.xyz_of_shape(&shape).map(|v| v * factor)
-            })
-            .collect();
+        let ln_doppler = |i: usize| low + (i as f64 - 1.0) / per_unit;
         Self {
-            entries,
+            entries: (0..count).map(ln_doppler).map(channels).collect(),
             start: low,
             per_unit,
         }
@@ -99,11 +120,13 @@ fn per_unit(axis: LogAxis) -> f64 {
     (FINENESS / axis.spacing()).clamp(COARSEST, finest)
 }
 
-/// The range of ln D in which any wavelength of the axis reads inside the support.
-fn interesting(axis: LogAxis, support_nm: Option<[f64; 2]>) -> [f64; 2] {
-    support_nm.map_or([0.0, 0.0], |[a, b]| {
+/// The range of ln D, within ±`reach`, in which any wavelength of the axis reads inside the support.
+pub(super) fn interesting(axis: LogAxis, reach: f64, support_nm: Option<[f64; 2]>) -> [f64; 2] {
+    let [low, high] = support_nm.map_or([0.0, 0.0], |[a, b]| {
         let longest = axis.wavelength_nm((axis.count() + 1) as f64);
         let shortest = axis.wavelength_nm(-2.0);
         [(a / longest).ln(), (b / shortest).ln()]
-    })
+    });
+    let low = low.max(-reach).min(reach);
+    [low, high.min(reach).max(low)]
 }

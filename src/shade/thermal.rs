@@ -149,6 +149,12 @@ impl Glow {
         self
     }
 
+    /// With the table of its light over ln D.
+    pub(super) fn with_table(mut self, table: XyzTable) -> Self {
+        self.table = Some(table);
+        self
+    }
+
     /// Memory of its table, bytes.
     pub(super) fn bytes(&self) -> usize {
         self.table.as_ref().map_or(0, XyzTable::bytes)
@@ -193,6 +199,14 @@ impl Glow {
     /// Adds the spectral radiance under the Doppler factor `d` at the axis' wavelengths.
     pub(super) fn add(&self, d: f64, received: Received, axis: LogAxis, out: &mut [f64]) {
         let seen = self.seen(d, received);
+        if self.emissivity.narrow().is_some() {
+            let mut shares = vec![0.0; axis.count()];
+            let peak = self.emissivity.read(seen.shift, &mut shares);
+            for (j, (out, share)) in out.iter_mut().zip(&shares).enumerate() {
+                *out += seen.black_at(axis.wavelength_nm(j as f64)) * peak * f64::from(*share);
+            }
+            return;
+        }
         for (j, out) in out.iter_mut().enumerate() {
             *out += seen.at(axis.wavelength_nm(j as f64));
         }
@@ -228,5 +242,10 @@ impl SeenGlow<'_> {
     /// Spectral radiance at a wavelength, W·m⁻²·sr⁻¹·nm⁻¹.
     pub(super) fn at(&self, nm: f64) -> f64 {
         self.factor * self.emissivity.at(self.shift * nm) * planck::radiance(nm, self.kelvin)
+    }
+
+    /// The same of a surface of emissivity 1.
+    pub(super) fn black_at(&self, nm: f64) -> f64 {
+        self.factor * planck::radiance(nm, self.kelvin)
     }
 }

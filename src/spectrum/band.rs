@@ -63,7 +63,7 @@ fn add(weights: &mut [f64], j: i64, weight: f64) {
 
 /// Nodes and weights of Gauss and Legendre's rule of five points on −1 to 1 (Abramowitz & Stegun
 /// 1964, 25.4.30).
-fn gauss() -> [(f64, f64); 5] {
+pub(super) fn gauss() -> [(f64, f64); 5] {
     let node = |sign: f64| (5.0 + sign * 2.0 * (10.0_f64 / 7.0).sqrt()).sqrt() / 3.0;
     let share = |sign: f64| (322.0 - sign * 13.0 * 70.0_f64.sqrt()) / 900.0;
     [

@@ -16,8 +16,10 @@
 
 use super::Spectrum;
 use super::log_grid::{PHASE_SPACING, Smoothing};
+use super::narrow_bound::NarrowKernel;
 use super::quadrature::{Quadrature, cuts_nm};
 use super::sensor::Sensor;
+use super::through::Responses;
 
 /// Steps between two wavelengths in which kernels are integrated: their error is below 1 %.
 const KERNEL_STEPS: i64 = 128;
@@ -29,7 +31,7 @@ const SAFETY: f64 = 1.1;
 const SMOOTHED: f64 = 7.0 / 6.0;
 
 /// Rounding of an f32 operation.
-const F32: f64 = 6e-8;
+pub(super) const F32: f64 = 6e-8;
 
 /// Most samples of a curve.
 const MOST_SAMPLES: f64 = 1e6;
@@ -46,6 +48,10 @@ pub struct Roughness {
     variation: [f64; 3],
     /// What is done to it before it is tabulated.
     smoothing: Smoothing,
+    /// ∫ f du.
+    area: f64,
+    /// Whether it is held as [`Fine`](super::Fine) and not baked.
+    narrow: bool,
 }
 
 impl Roughness {
@@ -54,6 +60,8 @@ impl Roughness {
         largest: [1.0, 0.0, 0.0],
         variation: [0.0; 3],
         smoothing: Smoothing::None,
+        area: f64::INFINITY,
+        narrow: false,
     };
 
     /// Of a curve (of the wavelength in nm) that bends where `spectrum` does, over a range of
@@ -93,6 +101,15 @@ impl Roughness {
         }
     }
 
+    /// As of a curve that is held finely, since sums over the axis would not do for it.
+    #[must_use]
+    pub fn narrow(self) -> Self {
+        Self {
+            narrow: true,
+            ..self
+        }
+    }
+
     /// Of samples (ln λ, value), ascending.
     fn sampled(samples: &[(f64, f64)]) -> Self {
         let peak = samples.iter().map(|s| s.1).fold(0.0, f64::max);
@@ -100,7 +117,12 @@ impl Roughness {
             return Self::CONSTANT;
         }
         let mut derivative: Vec<(f64, f64)> = samples.iter().map(|s| (s.0, s.1 / peak)).collect();
-        let mut own = Self::CONSTANT;
+        let pairs = derivative.windows(2);
+        let areas = pairs.map(|pair| 0.5 * (pair[0].1 + pair[1].1) * (pair[1].0 - pair[0].0));
+        let mut own = Self {
+            area: areas.sum(),
+            ..Self::CONSTANT
+        };
         for order in 0..3 {
             own.largest[order] = derivative.iter().map(|s| s.1.abs()).fold(0.0, f64::max);
             let steps = derivative.windows(2);
@@ -125,6 +147,8 @@ impl Roughness {
                 vvva + vvvb + 3.0 * (mixed(vva, lb, vb, lla) + mixed(va, llb, vvb, la)),
             ],
             smoothing: Smoothing::None,
+            area: self.area.min(other.area),
+            narrow: self.narrow || other.narrow,
         }
     }
 }
@@ -164,6 +188,7 @@ struct Kernel {
     /// Largest and sum of |Wⱼ|.
     weight: f64,
     weights: f64,
+    narrow: NarrowKernel,
 }
 
 impl GridBound {
@@ -178,6 +203,7 @@ impl GridBound {
             nm.clamp(from, to)
         };
         let white = quadrature.white([from, to]);
+        let mut densities = [const { Vec::new() }; 3];
         let mut now = [[0.0f64; 3]; 3];
         let mut channels = [Kernel::default(); 3];
         for i in (-KERNEL_STEPS..axis.count() as i64 * KERNEL_STEPS).rev() {
@@ -196,6 +222,7 @@ impl GridBound {
                     kernel.weight = kernel.weight.max(weight.abs());
                     kernel.weights += weight.abs();
                 }
+                densities[c].push(within[c] / white[c]);
                 let before = [k1, k2];
                 kernel.largest[0] = kernel.largest[0].max(k1.abs());
                 k1 += within[c] / white[c];
@@ -207,6 +234,12 @@ impl GridBound {
                 }
                 kernel.ends = now[c].map(f64::abs);
             }
+        }
+        let table_step = table_spacing
+            .unwrap_or(0.0)
+            .max(axis.spacing() * Responses::SPACING);
+        for (kernel, densities) in channels.iter_mut().zip(&densities) {
+            kernel.narrow = NarrowKernel::of(densities, step, axis.spacing(), table_step);
         }
         Self {
             channels,
@@ -229,6 +262,9 @@ impl GridBound {
     }
 
     fn channel(&self, kernel: &Kernel, factors: &[Roughness]) -> f64 {
+        if factors.iter().any(|f| f.narrow) {
+            return self.narrow(kernel, factors);
+        }
         let product = factors
             .iter()
             .fold(Roughness::CONSTANT, |product, f| product.times(f));
@@ -250,6 +286,18 @@ impl GridBound {
         let rounding = F32 * (self.wavelengths / 8.0 + 16.0) * kernel.weights;
         // Cubic taps carry the errors of their entries by at most 1.25.
         sum + 1.25 * (phases + rounding) + tables
+    }
+
+    /// Where a curve is narrow: two that are are integrated together.
+    fn narrow(&self, kernel: &Kernel, factors: &[Roughness]) -> f64 {
+        let narrow = factors.iter().filter(|f| f.narrow);
+        let area = narrow.map(|f| f.area).fold(f64::INFINITY, f64::min);
+        let smooth = factors.iter().filter(|f| !f.narrow);
+        let errors = smooth.map(|f| {
+            let baked = self.smoothing(kernel, f) / kernel.weight.max(f64::MIN_POSITIVE);
+            kernel.narrow.error(f.variation, f.largest[1], baked)
+        });
+        area.min(self.spacing * self.wavelengths) * (errors.sum::<f64>() + kernel.narrow.own())
     }
 
     /// Of lines between the phases of a baked curve: |f − If| ≤ V, δ/4 V(f′), δ²/8 max |f″|. The

@@ -73,7 +73,7 @@ impl LogAxis {
 }
 
 /// Rows between two neighbours of the axis.
-const PHASES: usize = 32;
+pub(super) const PHASES: usize = 32;
 
 /// Their distance in units of the axis' spacing.
 pub(super) const PHASE_SPACING: f64 = 1.0 / PHASES as f64;
@@ -111,6 +111,8 @@ pub enum Smoothing {
     /// mean there times 13/12, less 1/24 of the means a spacing to either side. Held to what the
     /// curve reaches.
     OverSpacing,
+    /// Averaged over the axis' spacing: what each wavelength's bin holds.
+    Mean,
 }
 
 impl Smoothing {
@@ -141,6 +143,9 @@ impl Smoothing {
             (inner + 0.5 * ends) / PHASES as f64
         };
         let means: Vec<f64> = (0..=last).map(mean).collect();
+        if self == Self::Mean {
+            return means;
+        }
         let peak = values.iter().copied().fold(0.0, f64::max);
         (0..=last)
             .map(|i| {
@@ -212,6 +217,13 @@ impl Baked {
     /// Memory of its rows, bytes.
     pub fn bytes(&self) -> usize {
         size_of_val(&*self.rows)
+    }
+
+    /// The value at a place of the axis in units of the phases' spacing.
+    pub(super) fn at_node(&self, node: i64) -> f64 {
+        let last = (self.columns * PHASES) as i64 - 1;
+        let i = (node - self.first * PHASES as i64).clamp(0, last) as usize;
+        self.peak * f64::from(self.rows[i % PHASES * self.columns + i / PHASES])
     }
 
     /// Factor of [`Shifted`] values: the curve's largest value.

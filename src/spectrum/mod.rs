@@ -12,18 +12,22 @@ mod bound;
 pub mod cardinal;
 pub mod cie;
 pub mod color_space;
+mod fine;
 pub mod illuminant;
 mod lines;
 mod log_grid;
+mod narrow_bound;
 pub mod planck;
 pub mod quadrature;
 pub mod sampled;
 mod sensor;
 mod tables;
+mod through;
 pub mod uplift;
 
 pub use bound::{GridBound, Roughness};
 pub use cardinal::{Beyond, Cardinal};
+pub use fine::{Fine, FineSensor};
 pub use illuminant::illuminant;
 pub use lines::{LINES_NM, LineAxis, Lines};
 pub use log_grid::{Baked, LogAxis, Shifted, Smoothing};
@@ -31,6 +35,7 @@ pub use planck::PlanckShape;
 pub use quadrature::Quadrature;
 pub use sampled::Sampled;
 pub use sensor::{Sensor, catmull_rom};
+pub use through::{MOST_ROWS, Responses, Sparse};
 pub use uplift::{ColoredLight, Uplift};
 
 /// How many widths from its center a gaussian falls below 1e-30 of its peak (e⁻⁷² = 5e-32).

@@ -106,11 +106,24 @@ impl Quadrature {
     ///
     /// XYZ of all that is visible takes 7 evaluations a nm, and as many for each cut.
     pub fn channels(&self, cuts_nm: &mut Vec<f64>, curve: impl Fn(f64) -> f64) -> [f64; 3] {
-        let Some([from, to]) = self.seen_nm() else {
-            return [0.0; 3];
-        };
+        match self.seen_nm() {
+            Some(seen_nm) => self.channels_within(seen_nm, cuts_nm, curve),
+            None => [0.0; 3],
+        }
+    }
+
+    /// The same of what lies in a range (nm, ascending) of what is seen.
+    pub fn channels_within(
+        &self,
+        [from, to]: [f64; 2],
+        cuts_nm: &mut Vec<f64>,
+        curve: impl Fn(f64) -> f64,
+    ) -> [f64; 3] {
         cuts_nm.retain(|nm| *nm > from && *nm < to);
-        cuts_nm.extend_from_slice(&self.cuts_nm);
+        let within = |nm: &&f64| **nm > from && **nm < to;
+        let first = self.cuts_nm.partition_point(|cut| *cut <= from);
+        cuts_nm.extend(self.cuts_nm[first..].iter().take_while(within));
+        cuts_nm.extend([from, to]);
         cuts_nm.sort_by(f64::total_cmp);
         cuts_nm.dedup();
         let pieces: Vec<Piece> = cuts_nm
