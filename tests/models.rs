@@ -13,5 +13,7 @@ mod models {
     pub(crate) mod bad;
     pub(crate) mod blender;
     pub(crate) mod fuzz;
+    pub(crate) mod lenient;
+    pub(crate) mod no_material;
     pub(crate) mod shapes;
 }

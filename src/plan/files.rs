@@ -1,9 +1,8 @@
 //! Hashes of the files that a shot reads: models with all that they name, spectra, skies, stars.
 
-use crate::shot::{FileError, MODEL_BYTES, Mistakes, ModelFiles, Opened, Shot};
+use crate::shot::{FileError, GltfJson, MODEL_BYTES, Mistakes, ModelFiles, Opened, Shot};
 use blake3::{Hash, Hasher};
 use indexmap::{IndexMap, IndexSet};
-use serde_json::Value;
 use std::fs::File;
 use std::io::{self, BufRead, Read};
 use std::path::{Path, PathBuf};
@@ -98,8 +97,10 @@ fn model(shot: &Shot, file: &Path, path: &Path) -> Result<Digest, FileError> {
     } else {
         let (hash, uris) = opened.read(gltf)?;
         for uri in uris {
-            let part = files.part_by_uri(&uri)?;
-            parts.push((uri, part));
+            // Whether a buffer is used, and so missed, only its reader knows.
+            if let Ok(part) = files.part_by_uri(&uri) {
+                parts.push((uri, part));
+            }
         }
         hash
     };
@@ -167,9 +168,8 @@ fn gltf(file: &mut impl Read) -> io::Result<(Hash, IndexSet<String>)> {
     };
     file.take(length).read_to_end(&mut json)?;
     hasher.update(&json);
-    let text = json.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(&json);
     // What is no JSON is the loader's to refuse.
-    let named: Value = serde_json::from_slice(text).unwrap_or_default();
+    let named = GltfJson::parse(&json).unwrap_or_default().value;
     let buffers = named["buffers"].as_array().into_iter().flatten();
     let uris = buffers.filter_map(|buffer| buffer["uri"].as_str());
     let uris = uris.filter(|uri| !uri.starts_with("data:"));

@@ -1,9 +1,10 @@
 //! Everything a shot reads from other files, read once: model files, measured spectra, skies.
 
-use super::model::{self, Mesh, Model};
+use super::model::{self, Mesh, Model, Warning};
 use super::sky::{SkyImage, Star, Stars, random_stars};
 use crate::shot::{self, Mistake, Mistakes, Shot};
 use crate::spectrum::Sampled;
+use indexmap::IndexSet;
 use std::collections::HashMap;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -27,6 +28,22 @@ pub(super) struct Loaded {
     pub(super) file: Model,
     /// Its meshes, to be shared.
     pub(super) meshes: Vec<Arc<Mesh>>,
+}
+
+impl Loaded {
+    /// Whether the file gives some surfaces no material.
+    pub(super) fn has_bare_surfaces(&self) -> bool {
+        self.meshes.iter().any(|mesh| mesh.material.is_none())
+    }
+
+    /// What is said of those surfaces where the shot gives them no material either.
+    fn of_bare_surfaces(&self) -> Option<Warning> {
+        let placements = self.file.placements.iter();
+        let bare = placements.filter(|p| self.meshes[p.mesh].material.is_none());
+        let nodes: IndexSet<String> = bare.map(|p| p.node.clone()).collect();
+        let nodes: Vec<String> = nodes.into_iter().collect();
+        (!nodes.is_empty()).then_some(Warning::NoMaterial { nodes })
+    }
 }
 
 impl Library {
@@ -89,9 +106,17 @@ impl Library {
             let warnings = loaded.file.warnings.iter();
             warnings.map(|w| (model.file.as_path(), w.to_string()))
         });
+        let not_given = shot.model.iter().zip(&self.models);
+        let not_given = not_given.filter(|(model, _)| model.given_material("").is_none());
+        let bare: IndexSet<(&Path, String)> = not_given
+            .filter_map(|(model, loaded)| {
+                let warning = loaded.of_bare_surfaces()?;
+                Some((model.file.as_path(), warning.to_string()))
+            })
+            .collect();
         let clamped = self.sky.as_ref().map_or(0, |sky| sky.clamped());
         let image = shot.background.image.iter().filter(move |_| clamped > 0);
-        of_models.chain(image.map(move |file| {
+        of_models.chain(bare).chain(image.map(move |file| {
             let message = format!(
                 "{clamped} components of its colors are negative, infinite or no number: they are clamped to 0 or to the greatest that is finite"
             );

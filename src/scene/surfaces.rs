@@ -1,8 +1,18 @@
 //! Which material each surface of a model has: the shot's, the file's, or one laid over the other.
 
 use super::material::{Material, MaterialError};
+use super::model::ModelMaterial;
 use super::resolve::Resolver;
 use super::spectra::Spectra;
+
+/// What surfaces to which neither file nor shot gives a material have: glTF's default, which is white
+/// (glTF 2.0, section 5.19).
+static NO_MATERIAL: ModelMaterial = ModelMaterial {
+    name: String::new(),
+    base_color: [1.0; 3],
+    emissive: [0.0; 3],
+    double_sided: true,
+};
 
 impl Resolver<'_> {
     /// All materials, and for each model the indices of its own materials; past those, of what
@@ -21,40 +31,32 @@ impl Resolver<'_> {
         self.check_named(index);
         let mut numbers = Vec::new();
         for own in &loaded.file.materials {
-            let name = model
-                .material
-                .as_ref()
-                .or_else(|| model.materials.get(&own.name))
-                .unwrap_or(&own.name);
+            let name = model.given_material(&own.name).unwrap_or(&own.name);
             numbers.push(self.material(index, name, materials));
         }
-        let bare = loaded.meshes.iter().any(|mesh| mesh.material.is_none());
-        match (&model.material, bare) {
-            (Some(name), _) => numbers.push(self.material(index, name, materials)),
-            (None, false) => {}
-            (None, true) => {
-                let message = "some surfaces of this file have no material".to_owned();
-                let help = "give `material = \"NAME\"` for all of them";
-                self.mistake(&format!("model[{index}].file"), message, Some(help));
-                numbers.push(0);
-            }
+        if loaded.has_bare_surfaces() {
+            numbers.push(match model.given_material("") {
+                Some(name) => self.material(index, name, materials),
+                None => self.laid_over(Some(&NO_MATERIAL), "", materials),
+            });
         }
         numbers
     }
 
-    /// Names of the file's materials that the shot maps must be there.
+    /// Names of the file's materials that the shot maps must be there; surfaces without material
+    /// have the empty one.
     fn check_named(&mut self, index: usize) {
-        let own: Vec<&str> = self
-            .library
-            .model(index)
-            .file
-            .materials
-            .iter()
-            .map(|m| m.name.as_str())
-            .collect();
+        let loaded = self.library.model(index);
+        let own = loaded.file.materials.iter().map(|m| m.name.as_str());
+        let own: Vec<&str> = own.collect();
         for name in self.shot.model[index].materials.keys() {
-            if !own.contains(&name.as_str()) {
-                let message = format!("the file has no material \"{name}\"");
+            let is_there =
+                own.contains(&name.as_str()) || name.is_empty() && loaded.has_bare_surfaces();
+            if !is_there {
+                let message = match name.as_str() {
+                    "" => "the file has no surface without material".to_owned(),
+                    name => format!("the file has no material \"{name}\""),
+                };
                 let help = format!("its materials: {}", own.join(", "));
                 let key = format!("model[{index}].materials.{name}");
                 self.mistake(&key, message, Some(&help));
@@ -65,18 +67,22 @@ impl Resolver<'_> {
     /// The number of a material as one model sees it: the shot's, the file's, or the first laid
     /// over the second.
     fn material(&mut self, model: usize, name: &str, materials: &mut Vec<Material>) -> u32 {
+        let own = &self.library.model(model).file.materials;
+        self.laid_over(own.iter().find(|m| m.name == name), name, materials)
+    }
+
+    /// The number of the shot's material of this name laid over the file's.
+    fn laid_over(
+        &mut self,
+        file: Option<&ModelMaterial>,
+        name: &str,
+        materials: &mut Vec<Material>,
+    ) -> u32 {
         let spectra = Spectra {
             shot: self.shot,
             library: self.library,
             frame: self.frame,
         };
-        let file = self
-            .library
-            .model(model)
-            .file
-            .materials
-            .iter()
-            .find(|m| m.name == name);
         // By what it is, not by what it looks like in this image: bodies keep their numbers.
         let key = (file.map(std::ptr::from_ref), name.to_owned());
         if let Some(&number) = self.numbers.get(&key) {

@@ -75,9 +75,18 @@ pub struct Model {
     pub array: Option<Array>,
     /// Name of the material of every surface. Default: the file's materials.
     pub material: Option<String>,
-    /// Material by the name it has in the file: { "Name in the file" = "red" }. Default: the file's materials.
+    /// Material by the name it has in the file: { "Name in the file" = "red" }; "" is the name of surfaces to which the file gives none. Default: the file's materials, white where it gives none.
     #[serde(default, skip_serializing_if = "IndexMap::is_empty")]
     pub materials: IndexMap<String, String>,
+}
+
+impl Model {
+    /// The name of the shot's material for surfaces of a material of the file.
+    pub fn given_material(&self, of_file: &str) -> Option<&String> {
+        self.material
+            .as_ref()
+            .or_else(|| self.materials.get(of_file))
+    }
 }
 
 /// A scale for all axes together or for each.

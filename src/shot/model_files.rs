@@ -1,6 +1,8 @@
 //! The files that a model may read: its own, and those it names within the folders allowed. Whoever
 //! reads a model, and whoever only hashes it, does so here.
 
+use super::nearby::nearby;
+use indexmap::IndexSet;
 use std::fs::{self, File};
 use std::io::{BufReader, ErrorKind, Read};
 use std::path::{Component, Path, PathBuf};
@@ -74,12 +76,14 @@ pub enum FileError {
         problem: &'static str,
     },
     /// A file that the model names is not there.
-    #[error("model `{}` names the file `{uri}`, which does not exist: copy it along with the model, or export as one .glb", file.display())]
+    #[error("model `{}` names the file `{uri}`, which does not exist: {}copy it along with the model, or export as one .glb", file.display(), did_you_mean(meant))]
     MissingPart {
         /// The model file.
         file: PathBuf,
         /// As the model has it.
         uri: String,
+        /// A file of nearly that name.
+        meant: Option<String>,
     },
 }
 
@@ -180,29 +184,39 @@ impl ModelFiles {
         if !self.allows(&lexical(&self.folder.join(name))) {
             return Err(outside());
         }
-        let canonical =
-            self.folder
-                .join(name)
-                .canonicalize()
-                .map_err(|_| FileError::MissingPart {
-                    file: self.model.clone(),
-                    uri: shorten(name),
-                })?;
+        let canonical = self.folder.join(name).canonicalize();
+        let canonical = canonical.map_err(|_| FileError::MissingPart {
+            file: self.model.clone(),
+            uri: shorten(name),
+            meant: nearby(&self.folder, name, |folder| self.allows(folder)),
+        })?;
         if !self.allows(&canonical) {
             return Err(outside());
         }
         self.opened(&canonical, Path::new(name))
     }
 
-    /// Opens a file that a glTF file names by a URI, percent-encoded.
+    /// Opens a file that a glTF file names by a URI: percent-encoded or, as not all exporters have
+    /// it, as the file is called, with `/` or `\\` between folders.
     ///
     /// # Errors
     /// As [`ModelFiles::part`].
     pub fn part_by_uri(&mut self, uri: &str) -> Result<Opened, FileError> {
-        match urlencoding::decode(uri) {
-            Ok(name) => self.part(&name),
-            Err(_) => Err(self.bad_uri(uri, "not valid percent-encoded text")),
+        let decoded = urlencoding::decode(uri).unwrap_or(uri.into());
+        let mut missing = None;
+        let slashed = |name: &str| name.replace('\\', "/");
+        let names = [&*decoded, uri].map(str::to_owned);
+        let spellings = names
+            .clone()
+            .into_iter()
+            .chain(names.iter().map(|n| slashed(n)));
+        for name in spellings.collect::<IndexSet<String>>() {
+            match self.part(&name) {
+                Err(error @ FileError::MissingPart { .. }) => missing = missing.or(Some(error)),
+                opened => return opened,
+            }
         }
+        Err(missing.unwrap_or_else(|| self.bad_uri(uri, "no file name")))
     }
 
     /// Opens the material library of an `mtllib` line: the file of that name or, since names may
@@ -224,7 +238,7 @@ impl ModelFiles {
     }
 
     /// The error for a file name that cannot be used.
-    pub fn bad_uri(&self, uri: &str, problem: &'static str) -> FileError {
+    fn bad_uri(&self, uri: &str, problem: &'static str) -> FileError {
         FileError::Uri {
             file: self.model.clone(),
             uri: shorten(uri),
@@ -262,6 +276,11 @@ impl ModelFiles {
             called: called.to_owned(),
         })
     }
+}
+
+fn did_you_mean(meant: &Option<String>) -> String {
+    let hint = |name| format!("did you mean `{}`? ", shorten(name));
+    meant.as_deref().map_or_else(String::new, hint)
 }
 
 /// None where the model names a file that is not there.

@@ -51,7 +51,7 @@ pub(crate) fn with_buffer(bytes: &[u8], mut gltf: Value) -> Value {
 }
 
 /// The message that refuses the JSON after `change`.
-fn refusal(change: impl FnOnce(&mut Value)) -> String {
+pub(crate) fn refusal(change: impl FnOnce(&mut Value)) -> String {
     let folder = tempfile::tempdir().unwrap();
     let mut gltf = triangle();
     change(&mut gltf);
@@ -212,7 +212,7 @@ fn broken_additions_are_refused_by_name() {
                         .remove("bufferView"),
                 )
             }),
-            "no data",
+            "is empty",
         ),
     ] {
         assert!(message.contains(expected), "{expected}: {message}");
@@ -253,7 +253,8 @@ fn numbers_that_are_not_finite_are_refused() {
     assert!(message.contains("vertex 900, but only 3"), "{message}");
 }
 
-fn data(gltf: &Value) -> String {
+/// The base64 of its only buffer.
+pub(crate) fn data(gltf: &Value) -> String {
     gltf["buffers"][0]["uri"]
         .as_str()
         .unwrap()

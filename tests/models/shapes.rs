@@ -6,7 +6,7 @@ use glam::DVec3;
 use restframe::scene::model::{Model, Warning, load};
 use serde_json::{Value, json};
 
-fn read(gltf: &Value) -> Model {
+pub(crate) fn read(gltf: &Value) -> Model {
     let folder = tempfile::tempdir().unwrap();
     load(
         &write(folder.path(), "m.gltf", gltf.to_string().as_bytes()),
@@ -20,7 +20,7 @@ fn read_obj(text: &str) -> Model {
     load(&write(folder.path(), "m.obj", text.as_bytes()), &[]).unwrap()
 }
 
-fn floats(values: &[f32]) -> Vec<u8> {
+pub(crate) fn floats(values: &[f32]) -> Vec<u8> {
     values.iter().flat_map(|v| v.to_le_bytes()).collect()
 }
 
@@ -139,9 +139,9 @@ fn the_default_scene_is_shown_and_others_are_told_of() {
     let mut gltf = triangle();
     gltf["nodes"] = json!([{ "mesh": 0 }, { "mesh": 0 }, { "mesh": 0, "scale": [0, 1, 1] }]);
     assert_eq!(read(&gltf).placements.len(), 2);
-    gltf["scenes"] = json!([{ "nodes": [0] }, { "nodes": [1, 2] }]);
-    assert_eq!(read(&gltf).placements.len(), 2);
-    gltf["scene"] = json!(0);
+    gltf["scenes"] = json!([{ "nodes": [1, 2] }, { "nodes": [0] }]);
+    assert_eq!(read(&gltf).placements.len(), 1);
+    gltf["scene"] = json!(1);
     let model = read(&gltf);
     assert_eq!(model.placements.len(), 1);
     assert_eq!(model.warnings, [Warning::OtherScenes { count: 1 }]);

@@ -87,6 +87,16 @@ pub enum ModelError {
         /// What the parser said, with line and column where it knows them.
         reason: String,
     },
+    /// The file is of another version of glTF.
+    #[error("model `{}` {found}, expected 2.0: {remedy}", file.display())]
+    Version {
+        /// The model file.
+        file: PathBuf,
+        /// Which version it is of, or needs.
+        found: String,
+        /// What to do about it.
+        remedy: &'static str,
+    },
     /// The file needs an extension that is not supported.
     #[error("model `{}` requires the extension {extension}, which is not supported: {remedy}", file.display())]
     Extension {

@@ -2,13 +2,15 @@
 //!
 //! The container, the JSON's extensions, the buffers and every accessor are checked here, since the
 //! `gltf` crate loses files for one unknown channel, shows one of many instances and panics at
-//! indices out of range; its types give the JSON its shape. Node transforms and lamps are read from
-//! the JSON in f64, which the crate would round to f32.
+//! indices out of range; its types give what is read of the JSON its shape. Node transforms and
+//! lamps are read from the JSON in f64, which the crate would round to f32.
 
 mod accessor;
 mod buffers;
 mod container;
 mod extensions;
+mod flat;
+mod json;
 mod lamp;
 mod material;
 mod nodes;
@@ -17,9 +19,9 @@ mod primitive;
 use super::{Model, ModelError, Warning};
 use crate::shot::ModelFiles;
 use ::gltf::json::{Index, Root};
+use buffers::Buffers;
 use indexmap::IndexSet;
 use serde_json::Value;
-use std::borrow::Cow;
 use std::cell::Cell;
 use std::path::{Path, PathBuf};
 
@@ -32,7 +34,7 @@ struct Source<'a> {
     root: Root,
     /// The same JSON, for what `root` lacks or rounds.
     raw: Value,
-    buffers: Vec<Cow<'a, [u8]>>,
+    buffers: Buffers<'a>,
     elements_left: Cell<u64>,
 }
 
@@ -40,9 +42,9 @@ struct Source<'a> {
 pub(super) fn read(bytes: &[u8], files: &mut ModelFiles) -> Result<Model, ModelError> {
     let container = container::split(bytes, &files.model)?;
     let mut model = Model::default();
-    let (root, raw) = container::parse(container.json, &files.model, &mut model.warnings)?;
-    let buffers = buffers::load(&root, container.binary, files)?;
+    let (root, raw) = json::parse(container.json, &files.model, &mut model.warnings)?;
     let file = files.model.clone();
+    let buffers = Buffers::new(root.buffers.len(), container.binary, files);
     let source = Source {
         file,
         root,
@@ -94,17 +96,18 @@ impl Source<'_> {
         for material in used {
             self.warn_of_material(material, model);
         }
-        let animations = self.root.animations.len();
+        let animations = self.raw["animations"].as_array().map_or(0, Vec::len);
         if animations > 0 {
             model
                 .warnings
                 .push(Warning::Animations { count: animations });
         }
-        let is_chosen = self.root.scene.is_some() || self.root.scenes.len() == 1;
-        if is_chosen && self.root.scenes.len() > 1 {
-            model.warnings.push(Warning::OtherScenes {
-                count: self.root.scenes.len() - 1,
-            });
+        let shown = self.shown_scene();
+        let scenes = self.root.scenes.iter().enumerate();
+        let others = scenes.filter(|(i, scene)| Some(*i) != shown && !scene.nodes.is_empty());
+        let count = others.count();
+        if count > 0 {
+            model.warnings.push(Warning::OtherScenes { count });
         }
     }
 }

@@ -135,7 +135,7 @@ pub(super) fn is_in_range(v: DVec3) -> bool {
 }
 
 /// Twice the area times the unit normal. The indices must be in range.
-fn normal(positions: &[DVec3], corners: [u32; 3]) -> DVec3 {
+pub(super) fn normal(positions: &[DVec3], corners: [u32; 3]) -> DVec3 {
     let [a, b, c] = corners.map(|i| positions[i as usize]);
     (b - a).cross(c - a)
 }

@@ -8,7 +8,7 @@
 //!
 //! Out of scope: cameras, animation (the pose is the file's own), skins, morph targets, textures.
 //!
-//! Source: Khronos glTF 2.0 specification (2021), KHR_lights_punctual, KHR_materials_*,
+//! Source: Khronos glTF 2.0 specification (2021), KHR_lights_punctual, KHR_materials_*, KHR_node_visibility,
 //! EXT_mesh_gpu_instancing; Wavefront OBJ and MTL as Blender 4 and 5 write them.
 
 mod error;

@@ -2,6 +2,9 @@
 
 use std::fmt;
 
+/// Names that one warning lists at most.
+const MOST_NAMES: usize = 3;
+
 /// Something in a model file that was left out or replaced, and its effect on the picture.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
 #[non_exhaustive]
@@ -121,6 +124,20 @@ pub enum Warning {
         /// How many.
         count: usize,
     },
+    /// Surfaces to which the file gives no material.
+    NoMaterial {
+        /// Names of their nodes, or of their objects or groups.
+        nodes: Vec<String>,
+    },
+    /// Text that is not UTF-8.
+    NotUtf8 {
+        /// Line of the first letter that is not, from 1.
+        line: usize,
+    },
+    /// Raw line breaks and the like within the text of a JSON file.
+    ControlCharacters,
+    /// A number in place of the text "2.0".
+    VersionNumber,
     /// An extension that may be ignored and is.
     Extension {
         /// Its name.
@@ -213,7 +230,7 @@ impl fmt::Display for Warning {
             ),
             Self::Squashed { node } => write!(
                 f,
-                "{node}: its scale squashes it to no volume (a scale of 0?); it is left out"
+                "{node}: its scale squashes it to nothing (a scale of 0?); it is left out"
             ),
             Self::LampRange { lamp } => write!(
                 f,
@@ -225,7 +242,31 @@ impl fmt::Display for Warning {
             ),
             Self::OtherScenes { count } => write!(
                 f,
-                "{count} other scenes are left out; only the file's default scene is shown"
+                "{count} other scenes are left out; only the file's default scene is shown, or the first where none is"
+            ),
+            Self::NoMaterial { nodes } => {
+                let shown = &nodes[..nodes.len().min(MOST_NAMES)];
+                let more = match nodes.len() - shown.len() {
+                    0 => String::new(),
+                    more => format!(" and {more} more"),
+                };
+                write!(
+                    f,
+                    "`{}`{more}: the file gives these surfaces no material; they are drawn white; in the shot, materials = {{ \"\" = \"NAME\" }} gives them one",
+                    shown.join("`, `")
+                )
+            }
+            Self::NotUtf8 { line } => write!(
+                f,
+                "line {line}: its text is not UTF-8; letters that cannot be read are \u{FFFD} in names: save it as UTF-8"
+            ),
+            Self::ControlCharacters => write!(
+                f,
+                "its JSON has raw line breaks or tabs within quotes; they are read as blanks"
+            ),
+            Self::VersionNumber => write!(
+                f,
+                "its asset.version is a number where text is expected; it is read as glTF 2.0"
             ),
             Self::Extension { extension } => {
                 write!(

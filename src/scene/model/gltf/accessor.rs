@@ -1,15 +1,18 @@
 //! Numbers out of buffers, every range checked before a byte is touched.
 //!
+//! An accessor without a buffer view is all zeros, but for its sparse values.
+//!
 //! Source: Khronos glTF 2.0 specification, section 3.6.2 (accessors, sparse ones included).
 
 use super::super::ModelError;
+use super::extensions::unsupported;
 use super::{MAX_ELEMENTS, Source};
 use ::gltf::json::accessor::{Accessor, ComponentType, Type, sparse::Sparse};
 use ::gltf::json::buffer::View;
 use ::gltf::json::validation::Checked;
 use ::gltf::json::{Index, validation::USize64};
 
-/// Elements of an accessor that has sparse values alone, on a ground of zeros, at most.
+/// Elements of an accessor of zeros at most, which cost the file no bytes.
 const MAX_ZEROS: u64 = 1 << 22;
 
 /// Bytes of one element at most: four numbers of 4.
@@ -106,22 +109,21 @@ impl Source<'_> {
     ) -> Result<Vec<T>, ModelError> {
         let count = accessor.count.0;
         self.spend(count)?;
-        let mut elements = match (accessor.buffer_view, &accessor.sparse) {
-            (Some(view), _) => {
+        let mut elements = match accessor.buffer_view {
+            Some(view) => {
                 let offset = accessor.byte_offset.unwrap_or_default().0;
                 let bytes = self.strided(view, offset, count, layout.bytes(), at)?;
                 bytes.map(&decode).collect()
             }
-            (None, Some(_)) if count <= MAX_ZEROS => {
+            None if count <= MAX_ZEROS => {
                 vec![decode(&[0; MAX_BYTES][..layout.bytes()]); count as usize]
             }
-            (None, Some(_)) => {
+            None => {
                 let problem = format!(
                     "has {count} elements and no buffer view, expected at most {MAX_ZEROS}"
                 );
                 return Err(self.invalid(at, problem));
             }
-            (None, None) => return Err(self.invalid(at, "has no data: expected a bufferView")),
         };
         if let Some(sparse) = &accessor.sparse {
             self.replace(&mut elements, sparse, layout, at, decode)?;
@@ -178,9 +180,9 @@ impl Source<'_> {
         at: &str,
     ) -> Result<impl Iterator<Item = &[u8]>, ModelError> {
         let bytes = self.view(view, at)?;
-        let stride = self.root.buffer_views[view.value()]
-            .byte_stride
-            .map_or(size, |s| s.0);
+        // A stride of 0 breaks a rule and means none, as in OpenGL.
+        let stride = self.root.buffer_views[view.value()].byte_stride;
+        let stride = stride.map(|s| s.0).filter(|&s| s > 0).unwrap_or(size);
         if stride < size {
             let problem = format!("has a stride of {stride} bytes, expected at least {size}");
             return Err(self.invalid(at, problem));
@@ -208,8 +210,14 @@ impl Source<'_> {
     fn view(&self, index: Index<View>, at: &str) -> Result<&[u8], ModelError> {
         let view = self.item(&self.root.buffer_views, index, "buffer view", at)?;
         let from = format!("buffer view {}", index.value());
-        let buffer = self.buffers.get(view.buffer.value()).ok_or_else(|| {
-            self.dangling(&from, "buffer", view.buffer.value(), self.buffers.len())
+        let buffer = self.item(&self.root.buffers, view.buffer, "buffer", &from)?;
+        let buffer = self.buffers.bytes(view.buffer.value(), buffer);
+        let buffer = buffer.map_err(|error| {
+            // The fallback of a compressed view may have no bytes at all.
+            let extensions = &self.raw["bufferViews"][index.value()]["extensions"];
+            let names = ["EXT_meshopt_compression", "KHR_meshopt_compression"];
+            let name = names.into_iter().find(|name| extensions[name].is_object());
+            name.map_or(error, |name| unsupported(name, &self.file))
         })?;
         let start = view.byte_offset.unwrap_or_default().0;
         let USize64(length) = view.byte_length;
@@ -226,7 +234,8 @@ impl Source<'_> {
             })
     }
 
-    fn spend(&self, count: u64) -> Result<(), ModelError> {
+    /// Counts elements against the most that are decoded.
+    pub(super) fn spend(&self, count: u64) -> Result<(), ModelError> {
         let left = self.elements_left.get().checked_sub(count);
         self.elements_left
             .set(left.ok_or_else(|| ModelError::TooMany {

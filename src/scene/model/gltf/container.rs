@@ -1,11 +1,9 @@
-//! The two chunks of a glb file, and the JSON of either form.
+//! The two chunks of a glb file.
 //!
 //! Source: Khronos glTF 2.0 specification, section 4 (GLB file format).
 
-use super::super::{ModelError, Warning};
-use super::extensions;
-use ::gltf::json::Root;
-use serde_json::Value;
+use super::super::ModelError;
+use super::json::CONVERT;
 use std::path::Path;
 
 const HEADER: usize = 12;
@@ -33,12 +31,21 @@ pub(super) fn split<'a>(bytes: &'a [u8], file: &Path) -> Result<Container<'a>, M
         let start = String::from_utf8_lossy(&bytes[..bytes.len().min(4)]).into_owned();
         return Err(broken(file, 0, "the letters glTF", &format!("{start:?}")));
     }
-    let json = bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(bytes);
-    Ok(Container { json, binary: None })
+    Ok(Container {
+        json: bytes,
+        binary: None,
+    })
 }
 
 fn split_glb<'a>(bytes: &'a [u8], file: &Path) -> Result<Container<'a>, ModelError> {
     let version = word(bytes, 4, file)?;
+    if version == 1 {
+        return Err(ModelError::Version {
+            file: file.to_owned(),
+            found: "is glTF 1.0 (version 1 of glb)".to_owned(),
+            remedy: CONVERT,
+        });
+    }
     if version != 2 {
         return Err(broken(file, 4, "version 2", &format!("version {version}")));
     }
@@ -97,45 +104,5 @@ fn broken(file: &Path, byte: usize, expected: &str, found: &str) -> ModelError {
         byte,
         expected,
         found,
-    }
-}
-
-/// The JSON in the crate's types and as it stands, extensions that are required looked at and
-/// what the crate would stumble over cut out.
-pub(super) fn parse(
-    text: &[u8],
-    file: &Path,
-    warnings: &mut Vec<Warning>,
-) -> Result<(Root, Value), ModelError> {
-    let failed = |error: serde_json::Error| ModelError::Json {
-        file: file.to_owned(),
-        reason: error.to_string(),
-    };
-    let mut raw: Value = serde_json::from_slice(text).map_err(failed)?;
-    let version = raw["asset"]["version"].as_str().unwrap_or("none");
-    if !version.starts_with("2.") {
-        let reason = format!("its asset.version is {version}, expected 2.0");
-        return Err(ModelError::Json {
-            file: file.to_owned(),
-            reason,
-        });
-    }
-    extensions::require(&raw, file, warnings)?;
-    cut_pointer_channels(&mut raw);
-    let root = serde_json::from_value(raw.clone()).map_err(|error| {
-        // The text, read again, tells line and column, unless its fault was cut out.
-        failed(serde_json::from_slice::<Root>(text).err().unwrap_or(error))
-    })?;
-    Ok((root, raw))
-}
-
-/// Takes out channels that move something other than a node (KHR_animation_pointer): the crate
-/// would refuse the whole file.
-fn cut_pointer_channels(raw: &mut Value) {
-    let animations = raw.get_mut("animations").and_then(Value::as_array_mut);
-    for animation in animations.into_iter().flatten() {
-        if let Some(channels) = animation.get_mut("channels").and_then(Value::as_array_mut) {
-            channels.retain(|channel| channel["target"]["node"].is_u64());
-        }
     }
 }

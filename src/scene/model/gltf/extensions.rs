@@ -6,8 +6,9 @@ use serde_json::Value;
 use std::path::Path;
 
 /// Extensions beside KHR_materials_* without which a file is read as well as with them.
-const SUPPORTED: [&str; 5] = [
+const SUPPORTED: [&str; 6] = [
     "KHR_lights_punctual",
+    "KHR_node_visibility",
     "KHR_texture_transform",
     "KHR_animation_pointer",
     "KHR_xmp_json_ld",
@@ -51,14 +52,7 @@ pub(super) fn require(
 ) -> Result<(), ModelError> {
     for name in names(raw, "extensionsRequired", file)? {
         if !is_supported(name) {
-            let known = REMEDIES.iter().find(|(known, _)| *known == name);
-            let remedy = known.map_or("export the model without it", |(_, remedy)| remedy);
-            let (file, extension) = (file.to_owned(), name.to_owned());
-            return Err(ModelError::Extension {
-                file,
-                extension,
-                remedy,
-            });
+            return Err(unsupported(name, file));
         }
     }
     for name in names(raw, "extensionsUsed", file)? {
@@ -69,6 +63,16 @@ pub(super) fn require(
         }
     }
     Ok(())
+}
+
+/// The error for a file that cannot be read without the extension.
+pub(super) fn unsupported(name: &str, file: &Path) -> ModelError {
+    let known = REMEDIES.iter().find(|(known, _)| *known == name);
+    ModelError::Extension {
+        file: file.to_owned(),
+        extension: name.to_owned(),
+        remedy: known.map_or("export the model without it", |(_, remedy)| remedy),
+    }
 }
 
 fn is_supported(name: &str) -> bool {

@@ -1,36 +1,56 @@
 //! The node tree: where every mesh, instance and lamp stands.
 //!
 //! Walked with a stack of its own, so that depth costs no call stack. The file shows its default
-//! scene; without one its only scene; otherwise every node without a parent.
+//! scene; without one the first that has nodes; without scenes every node without a parent. Nodes
+//! that KHR_node_visibility hides are left out with all below them, lamps as well.
 
 use super::super::mesh::is_in_range;
 use super::super::{Model, ModelError, Placement, Warning};
+use super::flat::{Extent, Pose};
 use super::{Source, name_of};
 use ::glam::{DAffine3, DMat3, DMat4, DQuat, DVec3};
 use ::gltf::json::Index;
 use ::gltf::json::accessor::{Accessor, ComponentType};
 use serde_json::Value;
+use std::collections::HashMap;
 
 /// Instances of meshes in one file at most.
 const MAX_INSTANCES: usize = 10_000_000;
 
-/// A placement whose volume is less than this part of its axes' box is squashed flat.
-const FLAT: f64 = 1e-12;
+/// Least departure from 0 0 0 1 by which the last row of a matrix is more than a rounding of it.
+const NOT_AFFINE: f64 = 1e-5;
+
+/// Meshes of the file that have become meshes of ours.
+struct Made {
+    /// By the file's index, the indices of ours.
+    whole: Vec<Option<Vec<usize>>>,
+    /// Ours by the index of the whole one and the bits of the direction in which it is flattened;
+    /// `None` where nothing is left.
+    flat: HashMap<(usize, [u64; 3]), Option<usize>>,
+}
 
 /// Puts every instance and lamp of the scene into the model.
 pub(super) fn place(source: &Source<'_>, model: &mut Model) -> Result<(), ModelError> {
     let parentless = source.parentless_nodes()?;
     let mut stack = Vec::new();
     for root in source.scene_roots(&parentless)?.into_iter().rev() {
-        stack.push((root, DAffine3::IDENTITY));
+        stack.push((root, Pose::ORIGIN));
     }
-    let mut made = vec![None; source.root.meshes.len()];
+    let mut made = Made {
+        whole: vec![None; source.root.meshes.len()],
+        flat: HashMap::new(),
+    };
     let mut is_visited = vec![false; source.root.nodes.len()];
     while let Some((index, parent)) = stack.pop() {
         if std::mem::replace(&mut is_visited[index], true) {
             return Err(source.not_a_tree(index));
         }
-        let world = parent * source.local(index)?;
+        let visibility = &source.raw["nodes"][index]["extensions"]["KHR_node_visibility"];
+        if visibility["visible"] == false {
+            continue;
+        }
+        let pose = parent.then(source.local(index)?);
+        let world = pose.world;
         let [x, y, z] = [
             world.matrix3.x_axis,
             world.matrix3.y_axis,
@@ -43,9 +63,9 @@ pub(super) fn place(source: &Source<'_>, model: &mut Model) -> Result<(), ModelE
                 found: world.to_string(),
             });
         }
-        source.node(index, &world, &mut made, model)?;
+        source.node(index, pose, &mut made, model)?;
         let children = source.root.nodes[index].children.iter().flatten().rev();
-        stack.extend(children.map(|child| (child.value(), world)));
+        stack.extend(children.map(|child| (child.value(), pose)));
     }
     Ok(())
 }
@@ -54,8 +74,8 @@ impl Source<'_> {
     fn node(
         &self,
         index: usize,
-        world: &DAffine3,
-        made: &mut [Option<Vec<usize>>],
+        pose: Pose,
+        made: &mut Made,
         model: &mut Model,
     ) -> Result<(), ModelError> {
         let node = &self.root.nodes[index];
@@ -63,22 +83,22 @@ impl Source<'_> {
         let extensions = &self.raw["nodes"][index]["extensions"];
         let light = extensions["KHR_lights_punctual"]["light"].as_u64();
         if let Some(light) = light {
-            self.lamp(light, &name, world, model)?;
+            self.lamp(light, &name, &pose.world, model)?;
         }
         if let Some(mesh) = node.mesh {
             let from = format!("node `{name}`");
             self.item(&self.root.meshes, mesh, "mesh", &from)?;
-            if made[mesh.value()].is_none() {
-                let parts = self.mesh(mesh.value(), model)?;
-                made[mesh.value()] = Some(parts);
-            }
+            let parts = match &made.whole[mesh.value()] {
+                Some(parts) => parts.clone(),
+                None => self.mesh(mesh.value(), model)?,
+            };
+            made.whole[mesh.value()] = Some(parts.clone());
             if node.skin.is_some() {
                 model.warnings.push(Warning::Skin { node: from.clone() });
             }
-            let parts = made[mesh.value()].as_deref().unwrap_or_default();
             let instancing = &extensions["EXT_mesh_gpu_instancing"]["attributes"];
             for instance in self.instances(instancing, &from)? {
-                self.stand(parts, *world * instance, &name, model)?;
+                self.stand(&parts, pose.then(instance), &name, made, model)?;
             }
         }
         let has_children = node.children.as_ref().is_some_and(|c| !c.is_empty());
@@ -94,25 +114,36 @@ impl Source<'_> {
     fn stand(
         &self,
         parts: &[usize],
-        world: DAffine3,
+        pose: Pose,
         node: &str,
+        made: &mut Made,
         model: &mut Model,
     ) -> Result<(), ModelError> {
-        let axes = world.matrix3;
-        let room = axes.x_axis.length() * axes.y_axis.length() * axes.z_axis.length();
-        let volume = axes.determinant().abs();
-        let has_volume = volume > FLAT * room && world.inverse().is_finite();
-        if !has_volume {
+        let extent = pose.extent();
+        let mut is_seen = parts.is_empty();
+        for &mesh in parts {
+            let placed = match extent {
+                Extent::Nothing => None,
+                Extent::Solid(world) => Some((mesh, world)),
+                Extent::Flat { world, lost } => {
+                    let key = (mesh, lost.to_array().map(f64::to_bits));
+                    let flattened = match made.flat.get(&key) {
+                        Some(&flattened) => flattened,
+                        None => self.flattened(mesh, lost, node, model)?,
+                    };
+                    made.flat.insert(key, flattened);
+                    flattened.map(|mesh| (mesh, world))
+                }
+            };
+            let node = node.to_owned();
+            is_seen |= placed.is_some();
+            model
+                .placements
+                .extend(placed.map(|(mesh, world)| Placement { mesh, world, node }));
+        }
+        if !is_seen {
             model.warnings.push(Warning::Squashed {
                 node: format!("node `{node}`"),
-            });
-            return Ok(());
-        }
-        for &mesh in parts {
-            model.placements.push(Placement {
-                mesh,
-                world,
-                node: node.to_owned(),
             });
         }
         if model.placements.len() > MAX_INSTANCES {
@@ -127,12 +158,12 @@ impl Source<'_> {
     }
 
     /// The node's own transforms by EXT_mesh_gpu_instancing; one that does nothing without it.
-    fn instances(&self, attributes: &Value, from: &str) -> Result<Vec<DAffine3>, ModelError> {
+    fn instances(&self, attributes: &Value, from: &str) -> Result<Vec<Pose>, ModelError> {
         const FLOAT: [ComponentType; 1] = [ComponentType::F32];
         const TURN: [ComponentType; 3] =
             [ComponentType::F32, ComponentType::I8, ComponentType::I16];
         let Some(attributes) = attributes.as_object().filter(|a| !a.is_empty()) else {
-            return Ok(vec![DAffine3::IDENTITY]);
+            return Ok(vec![Pose::ORIGIN]);
         };
         let at = |key: &str| {
             let index = attributes.get(key)?.as_u64()?;
@@ -170,17 +201,23 @@ impl Source<'_> {
             .collect()
     }
 
-    fn local(&self, index: usize) -> Result<DAffine3, ModelError> {
+    fn local(&self, index: usize) -> Result<Pose, ModelError> {
         let raw = &self.raw["nodes"][index];
         let at = || format!("node `{}`", self.node_name(index));
         if let Some(m) = numbers::<16>(&raw["matrix"]) {
-            if [m[3], m[7], m[11], m[15]] != [0.0, 0.0, 0.0, 1.0] {
+            let off = [m[3], m[7], m[11], m[15] - 1.0];
+            if off.into_iter().any(|v| v.abs() > NOT_AFFINE) {
                 return Err(self.invalid(
                     &at(),
                     "has a matrix that is not affine: expected 0 0 0 1 in its last row",
                 ));
             }
-            return Ok(DAffine3::from_mat4(DMat4::from_cols_array(&m)));
+            let world = DAffine3::from_mat4(DMat4::from_cols_array(&m));
+            let is_mirrored = world.matrix3.determinant() < 0.0;
+            return Ok(Pose {
+                world,
+                handed: if is_mirrored { -1.0 } else { 1.0 },
+            });
         }
         let shift = numbers(&raw["translation"]).map_or(DVec3::ZERO, DVec3::from_array);
         let scale = numbers(&raw["scale"]).map_or(DVec3::ONE, DVec3::from_array);
@@ -194,7 +231,7 @@ impl Source<'_> {
         turn: [f64; 4],
         shift: DVec3,
         at: &str,
-    ) -> Result<DAffine3, ModelError> {
+    ) -> Result<Pose, ModelError> {
         let length = turn.iter().map(|v| v * v).sum::<f64>().sqrt();
         if !(length > 0.0 && length.is_finite()) {
             let problem = format!("has the rotation {turn:?}, expected a quaternion of length 1");
@@ -202,7 +239,11 @@ impl Source<'_> {
         }
         let turn = DQuat::from_array(turn.map(|v| v / length));
         let axes = DMat3::from_quat(turn) * DMat3::from_diagonal(scale);
-        Ok(DAffine3::from_mat3_translation(axes, shift))
+        let signs = scale.to_array().map(|s| if s < 0.0 { -1.0 } else { 1.0 });
+        Ok(Pose {
+            world: DAffine3::from_mat3_translation(axes, shift),
+            handed: signs.into_iter().product(),
+        })
     }
 
     /// Nodes that are nobody's child, if all nodes form trees.
@@ -238,13 +279,24 @@ impl Source<'_> {
         }
     }
 
+    /// The scene that is shown, if there is any.
+    pub(super) fn shown_scene(&self) -> Option<usize> {
+        let scenes = &self.root.scenes;
+        let with_nodes = || scenes.iter().position(|scene| !scene.nodes.is_empty());
+        let default = self.root.scene.map(|scene| scene.value());
+        default
+            .or_else(with_nodes)
+            .or((!scenes.is_empty()).then_some(0))
+    }
+
     fn scene_roots(&self, parentless: &[usize]) -> Result<Vec<usize>, ModelError> {
         let scenes = &self.root.scenes;
-        let scene = match (self.root.scene, scenes.as_slice()) {
-            (Some(index), _) => self.item(scenes, index, "scene", "the file")?,
-            (None, [only]) => only,
-            (None, _) => return Ok(parentless.to_vec()),
+        let Some(index) = self.shown_scene() else {
+            return Ok(parentless.to_vec());
         };
+        let scene = scenes
+            .get(index)
+            .ok_or_else(|| self.dangling("the file", "scene", index, scenes.len()))?;
         for &node in &scene.nodes {
             self.item(&self.root.nodes, node, "node", "the scene")?;
         }

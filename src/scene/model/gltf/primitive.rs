@@ -2,6 +2,7 @@
 
 use super::super::mesh::RawMesh;
 use super::super::{Mesh, Model, ModelError, Warning};
+use super::extensions::unsupported;
 use super::{Source, name_of};
 use ::glam::DVec3;
 use ::gltf::json::Index;
@@ -22,12 +23,32 @@ impl Source<'_> {
                 1 => name.clone(),
                 _ => format!("primitive {number} of {name}"),
             };
+            self.check_compression(index, number, primitive)?;
             if let Some(part) = self.primitive(primitive, &at, model)? {
                 made.push(model.meshes.len());
                 model.meshes.push(part);
             }
         }
         Ok(made)
+    }
+
+    /// Refuses a primitive that is there in compressed form alone: its accessors without data would
+    /// be zeros.
+    fn check_compression(
+        &self,
+        mesh: usize,
+        number: usize,
+        primitive: &Primitive,
+    ) -> Result<(), ModelError> {
+        const DRACO: &str = "KHR_draco_mesh_compression";
+        let raw = &self.raw["meshes"][mesh]["primitives"][number];
+        let positions = attribute(primitive, &Semantic::Positions);
+        let positions = positions.and_then(|index| self.root.accessors.get(index.value()));
+        let has_data = positions.is_some_and(|p| p.buffer_view.is_some() || p.sparse.is_some());
+        if raw["extensions"][DRACO].is_object() && !has_data {
+            return Err(unsupported(DRACO, &self.file));
+        }
+        Ok(())
     }
 
     fn primitive(
