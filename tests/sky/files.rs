@@ -4,8 +4,8 @@
 use super::{Folder, looking};
 use exr::meta::attribute::{Chromaticities, EnvironmentMap, SampleType};
 use exr::prelude::{
-    AnyChannel, AnyChannels, Encoding, FlatSamples, Image, ImageAttributes, IntegerBounds, Layer,
-    LayerAttributes, SmallVec, Vec2, WritableImage, f16,
+    AnyChannel, AnyChannels, Blocks, Encoding, FlatSamples, Image, ImageAttributes, IntegerBounds,
+    Layer, LayerAttributes, SmallVec, Vec2, WritableImage, f16,
 };
 use glam::DVec3;
 use restframe::scene::sky::{SkyImage, SkyWarning};
@@ -44,6 +44,9 @@ struct Exr {
     chromaticities: Option<Chromaticities>,
     cube: bool,
     sample_type: SampleType,
+    encoding: Encoding,
+    /// Where the values begin in a picture of the usual size; None if they are all of it.
+    at: Option<[i32; 2]>,
 }
 
 impl Exr {
@@ -53,6 +56,8 @@ impl Exr {
             chromaticities: None,
             cube: false,
             sample_type: SampleType::F32,
+            encoding: Encoding::FAST_LOSSLESS,
+            at: None,
         }
     }
 
@@ -61,42 +66,50 @@ impl Exr {
     }
 
     fn bytes(self) -> Vec<u8> {
-        let size = Vec2(SIZE[0], self.channels[0].1.len() / SIZE[0]);
-        let channels: SmallVec<[AnyChannel<FlatSamples>; 4]> = self
-            .channels
-            .into_iter()
-            .map(|(name, values)| {
-                let samples = match self.sample_type {
-                    SampleType::F16 => {
-                        FlatSamples::F16(values.into_iter().map(f16::from_f32).collect())
-                    }
-                    SampleType::F32 => FlatSamples::F32(values),
-                    SampleType::U32 => {
-                        FlatSamples::U32(values.into_iter().map(|v| v as u32).collect())
-                    }
-                };
-                AnyChannel::new(name, samples)
-            })
-            .collect();
+        parts(vec![("", self)])
+    }
+
+    /// The display window.
+    fn window(&self) -> IntegerBounds {
+        let rows = self.channels[0].1.len() / SIZE[0];
+        let size = self.at.map_or([SIZE[0], rows], |_| SIZE);
+        IntegerBounds::new((0, 0), (size[0], size[1]))
+    }
+
+    fn layer(self, name: &str) -> Layer<AnyChannels<FlatSamples>> {
+        let [left, top] = self.at.unwrap_or_default();
+        let width = SIZE[0] - left as usize;
+        let size = Vec2(width, self.channels[0].1.len() / width);
         let own = LayerAttributes {
+            layer_name: (!name.is_empty()).then(|| name.into()),
+            layer_position: Vec2(left, top),
             environment_map: self.cube.then_some(EnvironmentMap::Cube),
             ..LayerAttributes::default()
         };
-        let layer = Layer::new(
-            size,
-            own,
-            Encoding::FAST_LOSSLESS,
-            AnyChannels::sort(channels),
-        );
-        let shared = ImageAttributes {
-            chromaticities: self.chromaticities,
-            ..ImageAttributes::new(IntegerBounds::new((0, 0), size))
+        let samples = |values: Vec<f32>| match self.sample_type {
+            SampleType::F16 => FlatSamples::F16(values.into_iter().map(f16::from_f32).collect()),
+            SampleType::F32 => FlatSamples::F32(values),
+            SampleType::U32 => FlatSamples::U32(values.into_iter().map(|v| v as u32).collect()),
         };
-        let image = Image::empty(shared).with_layer(layer);
-        let mut file = Cursor::new(Vec::new());
-        image.write().non_parallel().to_buffered(&mut file).unwrap();
-        file.into_inner()
+        let channels = self.channels.into_iter();
+        let channels = channels.map(|(name, values)| AnyChannel::new(name, samples(values)));
+        let channels = AnyChannels::sort(channels.collect());
+        Layer::new(size, own, self.encoding, channels)
     }
+}
+
+/// A file of these parts.
+fn parts(parts: Vec<(&str, Exr)>) -> Vec<u8> {
+    let shared = ImageAttributes {
+        chromaticities: parts[0].1.chromaticities,
+        ..ImageAttributes::new(parts[0].1.window())
+    };
+    let layers = parts.into_iter().map(|(name, part)| part.layer(name));
+    let image = Image::from_layers(shared, layers.collect::<SmallVec<[_; 2]>>());
+    let mut file = Cursor::new(Vec::new());
+    let write = image.write().non_parallel();
+    write.to_buffered(&mut file).unwrap();
+    file.into_inner()
 }
 
 fn named(names: [&'static str; 3], texels: &[[f32; 3]]) -> Vec<(&'static str, Vec<f32>)> {
@@ -377,6 +390,55 @@ fn the_picture_of_a_layered_exr_is_found() {
         assert!(error.to_string().contains(words), "{error}");
         assert!(error.remedy().contains("R, G and B"), "{error}");
     }
+}
+
+#[test]
+fn the_picture_of_an_exr_of_parts_is_found() {
+    let plain = seen(&decoded(&Exr::rgb(&colors()).bytes()));
+    let depth = || Exr::new(vec![("Z", vec![5.0; 32])]);
+    let other = || Exr::rgb(&[[0.5; 3]; 32]);
+    for (file, warning) in [
+        (
+            parts(vec![("depth", depth()), ("beauty", Exr::rgb(&colors()))]),
+            "",
+        ),
+        (
+            parts(vec![
+                ("diffuse", other()),
+                ("Combined", Exr::rgb(&colors())),
+            ]),
+            "",
+        ),
+        (
+            parts(vec![("main", Exr::rgb(&colors())), ("diffuse", other())]),
+            "`main`",
+        ),
+    ] {
+        let image = decoded(&file);
+        assert_eq!(seen(&image), plain);
+        let said = said(&image);
+        assert!(
+            said.contains(warning) && said.is_empty() == warning.is_empty(),
+            "{said}"
+        );
+    }
+}
+
+#[test]
+fn tiles_are_put_together_and_what_the_data_window_leaves_out_is_black() {
+    let plain = seen(&decoded(&Exr::rgb(&colors()).bytes()));
+    let mut tiled = Exr::rgb(&colors());
+    tiled.encoding.blocks = Blocks::Tiles(Vec2(3, 3));
+    assert_eq!(seen(&decoded(&tiled.bytes())), plain);
+    let mut window = Exr::rgb(&[[0.5; 3]; 12]);
+    window.at = Some([2, 1]);
+    let image = decoded(&window.bytes());
+    assert_eq!(image.size(), SIZE);
+    let inside = |i: usize| i % 8 >= 2 && (1..3).contains(&(i / 8));
+    let expected: Vec<[f64; 3]> = (0..32)
+        .map(|i| [if inside(i) { 0.5 } else { 0.0 }; 3])
+        .collect();
+    assert!(apart(&seen(&image), &expected) < ROUNDING);
 }
 
 #[test]

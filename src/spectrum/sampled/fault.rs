@@ -24,9 +24,9 @@ pub enum TableWarning {
         /// The least.
         least: f64,
     },
-    /// Wavelengths that follow from something else.
-    Reciprocal {
-        /// Its unit.
+    /// A first column that is not in nm.
+    Converted {
+        /// What it is in.
         unit: Unit,
     },
     /// Values that are not parts of 1, nor per nm.
@@ -54,10 +54,16 @@ impl fmt::Display for TableWarning {
                 f,
                 "{count} of its values are below 0, {least} at least: they are taken for noise around 0"
             ),
-            Self::Reciprocal { unit } => write!(
-                f,
-                "its first column, in {unit}, is converted to wavelengths, its values are left as they are, which is right for reflectances and the like: turn a density per {unit} into one per nm first"
-            ),
+            Self::Converted { unit } => {
+                write!(f, "its first column is in {unit}, and is converted to nm")?;
+                if unit.is_reciprocal() {
+                    write!(
+                        f,
+                        "; its values are left as they are, which is right for reflectances and the like: turn a density per {unit} into one per nm first"
+                    )?;
+                }
+                Ok(())
+            }
             Self::Values { name } => write!(
                 f,
                 "its header calls the values `{name}`, and they are taken as they are, as parts of 1 or per nm: convert them, or let `scale` do it"

@@ -3,7 +3,6 @@
 use super::fault::{NOISE, TableError, TableWarning};
 use super::heading::Heading;
 use super::table::Table;
-use super::unit::Unit;
 use super::{MAX_ROWS, MAX_VALUE, Sampled};
 use crate::spectrum::Beyond;
 
@@ -48,8 +47,8 @@ impl Measured {
             warnings.push(TableWarning::Columns { left_out });
         }
         warnings.extend(lift(&mut rows)?);
-        let unit = heading.unit.filter(Unit::is_reciprocal);
-        warnings.extend(unit.map(|unit| TableWarning::Reciprocal { unit }));
+        let unit = heading.unit.filter(|unit| !unit.is_nm());
+        warnings.extend(unit.map(|unit| TableWarning::Converted { unit }));
         warnings.extend(heading.values.map(|name| TableWarning::Values { name }));
         Ok(Self {
             curve: Sampled {
@@ -211,7 +210,7 @@ mod tests {
             "400,0.25,,\n500,0.5,,\n600.5,0.001,,\n,,,\n",
             "nm,R\r400,0.25\r500,0.5\r600.5,0.001\r",
             "nm R sigma\n400 0.25 0.1\n500 0.5 0.1\n600.5 0.001 0.1\n",
-            "# wavelength (um), R\n0.4,0.25\n0.5,0.5\n0.6005,0.001\n",
+            "# wavelength (nm), R\n400,0.25\n500,0.5\n600.5,0.001\n",
         ] {
             let (found, warnings) = read(text);
             let pairs = found.nm.iter().zip(&expected.nm);
@@ -258,10 +257,16 @@ mod tests {
             "wavelength (um) R\n0.4 0\n0.6 1\n",
             "Wavelength nm Reflectance\n400 0\n600 1\n",
             "wavelength [Å];R\n4000;0\n6000;1\n",
-            "wavelength,R\nmicrons,percent of 1\n0.4,0\n0.6,1\n",
+            "wavelength,R\nmicrons,parts\n0.4,0\n0.6,1\n",
+            "# wavelength (um), R\n0.4,0\n0.6,1\n",
         ] {
             assert!((at(text) - 0.5).abs() < 1e-12, "{text}");
         }
+        let (_, warnings) = read("wavelength (um), R\n0.4,0\n0.6,1\n");
+        assert_eq!(
+            warnings[0].to_string(),
+            "its first column is in µm, and is converted to nm"
+        );
         for (text, word) in [
             ("wavelength (furlongs),R\n400,1\n", "`furlongs`"),
             ("wavelength / lines,R\n400,1\n", "`lines`"),
@@ -282,7 +287,7 @@ mod tests {
     fn wavenumbers_and_energies_are_turned_around_with_a_warning() {
         let (found, warnings) = read("wavenumber (cm-1),R\n12500,0.1\n20000,0.5\n25000,0.9\n");
         assert_eq!(found, curve(&[(400.0, 0.9), (500.0, 0.5), (800.0, 0.1)]));
-        assert!(matches!(warnings[..], [TableWarning::Reciprocal { .. }]));
+        assert!(matches!(warnings[..], [TableWarning::Converted { .. }]));
         let said = warnings[0].to_string();
         assert!(said.contains("per cm⁻¹"), "{said}");
         let (found, _) = read("E (eV);R\n2;0,5\n3;0,25\n");

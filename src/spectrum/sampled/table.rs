@@ -53,10 +53,8 @@ impl<'a> Table<'a> {
         };
         let numbers = |sign: &Option<char>| {
             let fields = fields(row, *sign);
-            let both = fields
-                .get(..2)
-                .is_some_and(|both| both.iter().all(|field| table.number(field).is_some()));
-            both
+            let both = fields.get(..2);
+            both.is_some_and(|both| both.iter().all(|field| table.number(field).is_some()))
         };
         let present = |sign: &Option<char>| sign.is_some_and(|sign| row.contains(sign));
         let found = SIGNS.into_iter().find(numbers);

@@ -77,6 +77,11 @@ impl Unit {
         }
     }
 
+    /// Whether it is the nm itself.
+    pub fn is_nm(&self) -> bool {
+        self.to_nm == ToNm::Times(1.0)
+    }
+
     /// Whether it is none of length: a density in it is not one over wavelength.
     pub fn is_reciprocal(&self) -> bool {
         matches!(self.to_nm, ToNm::Over(_))
