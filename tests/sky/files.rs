@@ -161,74 +161,81 @@ fn chromaticities(xy: [[f32; 2]; 4]) -> Option<Chromaticities> {
     })
 }
 
+/// A color space: chromaticities, and the matrix from linear Rec. 709.
+struct Space {
+    name: &'static str,
+    xy: [[f32; 2]; 4],
+    from_709: [[f64; 3]; 3],
+}
+
 /// Published matrices from linear Rec. 709: ITU-R BT.2087 (Rec. 2020), W3C CSS Color 4 (Display
 /// P3), the Academy's with Bradford (AP1, AP0, as in colour-science), IEC 61966-2-1 (XYZ).
-const SPACES: [(&str, [[f32; 2]; 4], [[f64; 3]; 3]); 5] = [
-    (
-        "Rec. 2020",
-        [
+const SPACES: [Space; 5] = [
+    Space {
+        name: "Rec. 2020",
+        xy: [
             [0.708, 0.292],
             [0.170, 0.797],
             [0.131, 0.046],
             [0.3127, 0.3290],
         ],
-        [
+        from_709: [
             [0.6274, 0.3293, 0.0433],
             [0.0691, 0.9195, 0.0114],
             [0.0164, 0.0880, 0.8956],
         ],
-    ),
-    (
-        "Display P3",
-        [
+    },
+    Space {
+        name: "Display P3",
+        xy: [
             [0.680, 0.320],
             [0.265, 0.690],
             [0.150, 0.060],
             [0.3127, 0.3290],
         ],
-        [
+        from_709: [
             [0.8225, 0.1774, 0.0],
             [0.0332, 0.9669, 0.0],
             [0.0171, 0.0724, 0.9108],
         ],
-    ),
-    (
-        "ACEScg",
-        [
+    },
+    Space {
+        name: "ACEScg",
+        xy: [
             [0.713, 0.293],
             [0.165, 0.830],
             [0.128, 0.044],
             [0.32168, 0.33767],
         ],
-        [
+        from_709: [
             [0.6131, 0.3395, 0.0474],
             [0.0702, 0.9164, 0.0135],
             [0.0206, 0.1096, 0.8698],
         ],
-    ),
-    (
-        "ACES AP0",
-        [
+    },
+    Space {
+        name: "ACES AP0",
+        xy: [
             [0.7347, 0.2653],
             [0.0, 1.0],
             [0.0001, -0.077],
             [0.32168, 0.33767],
         ],
-        [
+        from_709: [
             [0.4396, 0.3830, 0.1774],
             [0.0898, 0.8134, 0.0968],
             [0.0175, 0.1115, 0.8709],
         ],
-    ),
-    (
-        "XYZ",
-        [[1.0, 0.0], [0.0, 1.0], [0.0, 0.0], [1.0 / 3.0, 1.0 / 3.0]],
-        [
+    },
+    Space {
+        name: "XYZ",
+        xy: [[1.0, 0.0], [0.0, 1.0], [0.0, 0.0], [1.0 / 3.0, 1.0 / 3.0]],
+        from_709: [
             [0.4124, 0.3576, 0.1805],
             [0.2126, 0.7152, 0.0722],
             [0.0193, 0.1192, 0.9505],
         ],
-    ),
+    },
 ];
 
 fn times(matrix: &[[f64; 3]; 3], color: [f32; 3]) -> [f32; 3] {
@@ -238,8 +245,8 @@ fn times(matrix: &[[f64; 3]; 3], color: [f32; 3]) -> [f32; 3] {
 #[test]
 fn chromaticities_of_an_exr_are_converted_to_rec_709() {
     let expected: Vec<[f64; 3]> = colors().iter().map(|c| c.map(f64::from)).collect();
-    for (name, xy, matrix) in SPACES {
-        let texels: Vec<[f32; 3]> = colors().iter().map(|c| times(&matrix, *c)).collect();
+    for Space { name, xy, from_709 } in SPACES {
+        let texels: Vec<[f32; 3]> = colors().iter().map(|c| times(&from_709, *c)).collect();
         let mut file = Exr::rgb(&texels);
         file.chromaticities = chromaticities(xy);
         let image = decoded(&file.bytes());
@@ -280,8 +287,7 @@ fn colors_beyond_rec_709_keep_their_luminance_and_are_counted() {
     let mut texels = [[0.5; 3]; 32];
     texels[9] = [0.0, 1.0, 0.0];
     let mut file = Exr::rgb(&texels);
-    let (_, xy, _) = SPACES[0];
-    file.chromaticities = chromaticities(xy);
+    file.chromaticities = chromaticities(SPACES[0].xy);
     let image = decoded(&file.bytes());
     let green = seen(&image)[9];
     // ITU-R BT.2020-2: Y of its green is 0.6780.
@@ -450,7 +456,7 @@ fn a_grey_exr_is_grey_and_one_of_xyz_is_xyz() {
         let grey: Vec<[f64; 3]> = values.iter().map(|v| [f64::from(*v); 3]).collect();
         assert!(apart(&seen(&decoded(&file.bytes())), &grey) < ROUNDING);
     }
-    let (_, _, xyz_from_709) = SPACES[4];
+    let xyz_from_709 = SPACES[4].from_709;
     let texels: Vec<[f32; 3]> = colors().iter().map(|c| times(&xyz_from_709, *c)).collect();
     let image = decoded(&Exr::new(named(["X", "Y", "Z"], &texels)).bytes());
     let expected: Vec<[f64; 3]> = colors().iter().map(|c| c.map(f64::from)).collect();

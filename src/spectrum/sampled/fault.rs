@@ -52,7 +52,7 @@ impl fmt::Display for TableWarning {
             ),
             Self::Negative { count, least } => write!(
                 f,
-                "{count} of its values are below 0, {least} at least: they are taken for noise around 0"
+                "{count} of its values are below 0, the least {least}: they are taken for noise, as 0"
             ),
             Self::Converted { unit } => {
                 write!(f, "its first column is in {unit}, and is converted to nm")?;

@@ -107,7 +107,11 @@ fn row(
             found: field.chars().take(40).collect(),
         })
     };
-    let first = number(fields[0])?;
+    // Some instruments write the unit into every row.
+    let is_nm = heading.unit.is_none_or(|unit| unit.is_nm());
+    let bare = fields[0].strip_suffix("nm").map(str::trim_end);
+    let bare = bare.filter(|bare| is_nm && bare.ends_with(|c: char| c.is_ascii_digit()));
+    let first = number(bare.unwrap_or(fields[0]))?;
     let Some(second) = fields.get(1) else {
         let found = fields.len();
         return Err(TableError::Columns { line, found });
@@ -209,6 +213,7 @@ mod tests {
             "\"Wavelength, nm\",\"R\"\n\"400\",\"0.25\"\n\"500\",\"0.5\"\n\"600.5\",\"0.001\"\n",
             "400,0.25,,\n500,0.5,,\n600.5,0.001,,\n,,,\n",
             "nm,R\r400,0.25\r500,0.5\r600.5,0.001\r",
+            "Model\tA\nLUX\t400\n400nm\t0.25\n500nm\t0.5\n600.5 nm\t0.001\n",
             "nm R sigma\n400 0.25 0.1\n500 0.5 0.1\n600.5 0.001 0.1\n",
             "# wavelength (nm), R\n400,0.25\n500,0.5\n600.5,0.001\n",
         ] {
