@@ -69,6 +69,43 @@ fn a_shot_without_mistakes_passes() {
     }
 }
 
+/// UTF-16 as Windows writes it.
+fn wide(text: &str) -> Vec<u8> {
+    let marked = format!("\u{feff}{text}");
+    marked.encode_utf16().flat_map(u16::to_le_bytes).collect()
+}
+
+#[test]
+fn a_table_in_another_encoding_is_told_with_what_to_do() {
+    let folder = tempfile::tempdir().unwrap();
+    let write = |name: &str, bytes: &[u8]| fs::write(folder.path().join(name), bytes).unwrap();
+    write("a.obj", b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    write(
+        "shot.toml",
+        b"[[model]]\nfile = \"a.obj\"\nmaterial = \"m\"\n[camera]\n[material.m]\n\
+          diffuse = { spectrum = { file = \"paint.csv\" } }\n",
+    );
+    let utf16 = wide("nm;R\n400;0,5\n");
+    for (bytes, words) in [
+        (&utf16[..], "is UTF-16 text"),
+        (b"date\nnm,T (\xb0C)\n400,1\n", "line 2 has the byte 0xB0"),
+        (b"nm,R\n400,1\n500,one\n", "line 3: expected a number"),
+        (b"wavelength (inch),R\n400,1\n", "`inch`, is not known"),
+    ] {
+        write("paint.csv", bytes);
+        let mistakes = mistakes_in(&folder.path().join("shot.toml"));
+        let keys: Vec<&str> = mistakes.iter().map(|m| m.key.as_str()).collect();
+        assert_eq!(keys, ["material.m.diffuse.spectrum.file"]);
+        let message = &mistakes.iter().next().unwrap().message;
+        assert!(
+            message.contains("paint.csv") && message.contains(words),
+            "{message}"
+        );
+    }
+    write("paint.csv", b"nm,R\r400,1\r");
+    assert!(Prepared::read(&folder.path().join("shot.toml")).is_ok());
+}
+
 #[test]
 fn what_is_no_text_file_is_named_and_refused() {
     let folder = tempfile::tempdir().unwrap();
@@ -84,7 +121,15 @@ fn what_is_no_text_file_is_named_and_refused() {
         (folder.path().to_owned(), "this is a folder"),
         (
             write("latin1.toml", b"[shot]\ntitle = \"caf\xe9\"\n"),
-            "line 2",
+            "line 2 has the byte 0xE9",
+        ),
+        (
+            write("utf16.toml", &wide("[shot]\nframes = 2\n")),
+            "is UTF-16 text",
+        ),
+        (
+            write("mac.toml", b"[shot]\rframes = 2\r[camera]\r"),
+            "lines end in CR alone",
         ),
         (big, "larger than 4 MiB"),
     ];

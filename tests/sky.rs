@@ -9,6 +9,8 @@
 
 #[path = "sky/bad.rs"]
 mod bad;
+#[path = "sky/files.rs"]
+mod files;
 #[path = "sky/image.rs"]
 mod image;
 #[path = "sky/motion.rs"]

@@ -2,8 +2,9 @@
 
 use super::model::{self, Mesh, Model, Warning};
 use super::sky::{SkyImage, Star, Stars, random_stars};
-use crate::shot::{self, Mistake, Mistakes, Shot};
+use crate::shot::{self, Mistake, Mistakes, SAVE_AS_UTF8, Shot};
 use crate::spectrum::Sampled;
+use crate::spectrum::sampled::Measured;
 use indexmap::IndexSet;
 use std::collections::HashMap;
 use std::fs;
@@ -17,7 +18,7 @@ const LARGEST_TABLE: u64 = 64 << 20;
 #[derive(Debug, Default)]
 pub struct Library {
     models: Vec<Arc<Loaded>>,
-    tables: HashMap<PathBuf, Sampled>,
+    tables: HashMap<PathBuf, Measured>,
     sky: Option<Arc<SkyImage>>,
     stars: Option<Arc<Stars>>,
 }
@@ -68,15 +69,15 @@ impl Library {
             }
         }
         let sky = shot.background.image.as_ref().and_then(|file| {
-            let image = SkyImage::read(&shot.beside(file)).map_err(|e| e.to_string());
-            let help = "name a panorama as Radiance HDR, OpenEXR or PNG";
-            kept(shot, ("background.image", help), image, &mut mistakes)
+            let image = SkyImage::read(&shot.beside(file));
+            let image = image.map_err(|e| (e.to_string(), e.remedy()));
+            kept(shot, "background.image", image, &mut mistakes)
         });
         let stars = shot.background.stars.as_ref().and_then(|stars| {
-            let stars = load_stars(shot, stars);
             let help =
                 "a row a star: azimuth and elevation in degrees, temperature in K, magnitude";
-            kept(shot, ("background.stars.file", help), stars, &mut mistakes)
+            let stars = load_stars(shot, stars).map_err(|message| (message, help));
+            kept(shot, "background.stars.file", stars, &mut mistakes)
         });
         if mistakes.is_empty() {
             Ok(Self {
@@ -114,14 +115,23 @@ impl Library {
                 Some((model.file.as_path(), warning.to_string()))
             })
             .collect();
-        let clamped = self.sky.as_ref().map_or(0, |sky| sky.clamped());
-        let image = shot.background.image.iter().filter(move |_| clamped > 0);
-        of_models.chain(bare).chain(image.map(move |file| {
-            let message = format!(
-                "{clamped} components of its colors are negative, infinite or no number: they are clamped to 0 or to the greatest that is finite"
-            );
-            (file.as_path(), message)
-        }))
+        let tables = shot.spectrum_tables().into_iter();
+        let of_tables = tables.filter_map(|(_, table)| {
+            let file = table.file.as_deref()?;
+            Some((file, self.tables.get(file)?.warnings(shot.sensor.window)))
+        });
+        let of_tables = of_tables.flat_map(|(file, warnings)| {
+            let warnings = warnings.into_iter();
+            warnings.map(move |w| (file, w.to_string()))
+        });
+        let of_sky = shot.background.image.iter().zip(&self.sky);
+        of_models
+            .chain(bare)
+            .chain(of_tables)
+            .chain(of_sky.flat_map(|(file, sky)| {
+                let warnings = sky.warnings().iter();
+                warnings.map(|w| (file.as_path(), w.to_string()))
+            }))
     }
 
     pub(super) fn sky(&self) -> Option<Arc<SkyImage>> {
@@ -137,7 +147,7 @@ impl Library {
     }
 
     pub(super) fn table(&self, file: &Path) -> Option<&Sampled> {
-        self.tables.get(file)
+        self.tables.get(file).map(|table| &table.curve)
     }
 }
 
@@ -170,12 +180,12 @@ fn load_models(shot: &Shot, mistakes: &mut Vec<Mistake>) -> Vec<Arc<Loaded>> {
 /// What a file gave, or nothing and the mistake.
 fn kept<T>(
     shot: &Shot,
-    (key, help): (&str, &str),
-    read: Result<T, String>,
+    key: &str,
+    read: Result<T, (String, &str)>,
     mistakes: &mut Vec<Mistake>,
 ) -> Option<Arc<T>> {
     read.map(Arc::new)
-        .map_err(|message| {
+        .map_err(|(message, help)| {
             let help = Some(help.to_owned());
             mistakes.push(shot.places.mistake(key, message, help));
         })
@@ -193,8 +203,8 @@ fn load_stars(shot: &Shot, stars: &shot::Stars) -> Result<Stars, String> {
     Ok(Stars::new(&list, stars.size()))
 }
 
-fn read_table(path: &Path) -> Result<Sampled, String> {
-    Sampled::from_csv(&read_text(path)?).map_err(|e| format!("{}: {e}", path.display()))
+fn read_table(path: &Path) -> Result<Measured, String> {
+    Measured::from_csv(&read_text(path)?).map_err(|e| format!("{}: {e}", path.display()))
 }
 
 fn read_text(path: &Path) -> Result<String, String> {
@@ -204,5 +214,6 @@ fn read_text(path: &Path) -> Result<String, String> {
             "a table of {length} bytes is more than {LARGEST_TABLE}"
         ));
     }
-    fs::read_to_string(path).map_err(|e| e.to_string())
+    let bytes = fs::read(path).map_err(|e| e.to_string())?;
+    shot::text_of(bytes).map_err(|e| format!("{}: {e}: {SAVE_AS_UTF8}", path.display()))
 }

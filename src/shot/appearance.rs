@@ -193,7 +193,7 @@ pub struct SpectrumTable {
     pub rgb: Option<Track<[f64; 3]>>,
     /// Kind: a bell { center, width } in nm with peak 1.
     pub gaussian: Option<Gaussian>,
-    /// Kind: a CSV file of wavelengths (nm) and values, relative to the shot file.
+    /// Kind: a CSV file of wavelengths (nm, or in the unit that its header names) and values, relative to the shot file.
     pub file: Option<PathBuf>,
     /// What lies beyond the first and last wavelength of `points`, `file`, `rgb` or `illuminant`. Default: "hold".
     pub beyond: Option<Beyond>,

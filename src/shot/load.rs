@@ -4,6 +4,7 @@
 //! wrong on lines without one; what is missing cannot be said then.
 
 use super::mistake::{Mistake, Mistakes, Places};
+use super::text::{SAVE_AS_UTF8, text_of};
 use super::walk::{MISSING, Walk, spans};
 use super::{Shot, check};
 use std::ffi::OsStr;
@@ -39,13 +40,14 @@ pub fn load(path: &Path) -> Result<Shot, Mistakes> {
         let help = "is this a shot? meshes and images stand in files of their own".to_owned();
         return Err(Mistakes::unreadable(path, message, Some(help)));
     }
-    let source = String::from_utf8(bytes).map_err(|error| {
-        let valid = &error.as_bytes()[..error.utf8_error().valid_up_to()];
-        let line = 1 + valid.iter().filter(|byte| **byte == b'\n').count();
-        let message =
-            format!("the file is not UTF-8 text: line {line} has bytes of something else");
-        Mistakes::unreadable(path, message, Some("save the file as UTF-8".into()))
+    let source = text_of(bytes).map_err(|error| {
+        Mistakes::unreadable(path, error.to_string(), Some(SAVE_AS_UTF8.to_owned()))
     })?;
+    if source.contains('\r') && !source.contains('\n') {
+        let message = "its lines end in CR alone, which TOML does not know".to_owned();
+        let help = "save the file with LF or CR LF at the ends of lines".to_owned();
+        return Err(Mistakes::unreadable(path, message, Some(help)));
+    }
     parse(&source, path)
 }
 

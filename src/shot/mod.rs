@@ -30,6 +30,7 @@ mod sequence;
 mod settings;
 mod sky;
 mod still;
+mod text;
 mod track;
 mod walk;
 
@@ -60,6 +61,7 @@ pub use settings::{
 pub use sky::{
     Background, MOST_STARS, RandomStars, STAR_KELVIN, STAR_MAGNITUDE, StarCatalogue, Stars,
 };
+pub use text::{SAVE_AS_UTF8, TextError, text_of};
 pub use track::{Blend, Ease, Track};
 
 /// A restframe shot: what is in the scene, how it moves, who looks at it and what is written.

@@ -25,7 +25,7 @@ pub struct Background {
     /// Spectral radiance at scale 1, W·m⁻²·sr⁻¹·nm⁻¹, at least 0. Default: 0.0.
     #[schemars(extend("minimum" = 0))]
     pub spectrum: Option<SpectrumValue>,
-    /// Image of the whole sky in place of `spectrum`, .hdr, .exr or .png, equirectangular with −z in its middle: a white pixel is scale × "D65", a color a smooth curve times that, and beyond the visible its end's value goes on.
+    /// Image of the whole sky in place of `spectrum`, .hdr, .exr or .png, equirectangular with −z in its middle, its colors those that the file says (Rec. 709 where it does not): a white pixel is scale × "D65", a color a smooth curve times that, and beyond the visible its end's value goes on.
     pub image: Option<PathBuf>,
     /// Factor on `spectrum` or `image`, at least 0; stars stay as they are. Default: 1.
     #[schemars(extend("minimum" = 0))]

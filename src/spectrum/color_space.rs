@@ -15,21 +15,34 @@ pub const D65_XY: [f64; 2] = [0.3127, 0.3290];
 pub const D65_XYZ: [f64; 3] = xyz_from_xy(D65_XY);
 
 /// XYZ of linear Rec. 709 RGB; (1, 1, 1) gives [`D65_XYZ`].
-pub const XYZ_FROM_RGB: Matrix = primaries_matrix();
+pub const XYZ_FROM_RGB: Matrix = xyz_from_primaries(PRIMARIES_XY, D65_XY);
 
 /// Linear Rec. 709 RGB of XYZ.
 pub const RGB_FROM_XYZ: Matrix = inverse(XYZ_FROM_RGB);
 
-/// XYZ at Y = 1 of a chromaticity.
+/// XYZ from which von Kries' rule scales cones' responses (Lam 1985, in Lindbloom, Chromatic
+/// Adaptation: the Bradford matrix).
+const BRADFORD: Matrix = [
+    [0.8951, 0.2664, -0.1614],
+    [-0.7502, 1.7135, 0.0367],
+    [0.0389, -0.0685, 1.0296],
+];
+
+/// XYZ of a chromaticity: at Y = 1, or at X + Y + Z = 1 where y is 0.
 const fn xyz_from_xy([x, y]: [f64; 2]) -> [f64; 3] {
-    [x / y, 1.0, (1.0 - x - y) / y]
+    if y == 0.0 {
+        [x, 0.0, 1.0 - x]
+    } else {
+        [x / y, 1.0, (1.0 - x - y) / y]
+    }
 }
 
-/// The primaries' XYZ as columns, each scaled so that together they make the white.
-const fn primaries_matrix() -> Matrix {
-    let [r, g, b] = PRIMARIES_XY;
+/// XYZ of the RGB of these primaries and this white (x, y of each): the primaries' XYZ as columns,
+/// each scaled so that together they make the white at Y = 1 (SMPTE RP 177-1993). Not finite where
+/// the primaries lie on one line, or the white's y is 0.
+pub const fn xyz_from_primaries([r, g, b]: [[f64; 2]; 3], white: [f64; 2]) -> Matrix {
     let columns = transposed([xyz_from_xy(r), xyz_from_xy(g), xyz_from_xy(b)]);
-    let amounts = apply(&inverse(columns), D65_XYZ);
+    let amounts = apply(&inverse(columns), xyz_from_xy(white));
     let mut scaled = columns;
     let mut row = 0;
     while row < 3 {
@@ -77,6 +90,23 @@ pub const fn apply(matrix: &Matrix, column: [f64; 3]) -> [f64; 3] {
         dot(matrix[1], column),
         dot(matrix[2], column),
     ]
+}
+
+/// First `b`, then `a`.
+pub const fn product(a: &Matrix, b: &Matrix) -> Matrix {
+    let [x, y, z] = transposed(*b);
+    transposed([apply(a, x), apply(a, y), apply(a, z)])
+}
+
+/// XYZ under the D65 white of what has an XYZ under another white (x, y), by Bradford's chromatic
+/// adaptation: that white becomes D65 at the same Y, greys stay grey.
+pub fn d65_from_white(white: [f64; 2]) -> Matrix {
+    let [from, to] = [xyz_from_xy(white), D65_XYZ].map(|xyz| apply(&BRADFORD, xyz));
+    let mut scaled_cones = BRADFORD;
+    for (i, row) in scaled_cones.iter_mut().enumerate() {
+        *row = scaled(*row, to[i] / from[i]);
+    }
+    product(&inverse(BRADFORD), &scaled_cones)
 }
 
 /// The sRGB transfer, linear to encoded (IEC 61966-2-1): a straight piece, then a power of
@@ -157,6 +187,51 @@ mod tests {
         ];
         assert_near(&RGB_FROM_XYZ, &rgb_from_xyz, 4e-4);
         assert_near(&XYZ_FROM_RGB, &xyz_from_rgb, 5e-5);
+    }
+
+    /// colour-science's and the Academy's matrix from AP1 to Rec. 709 with Bradford (ACES, CTL of
+    /// the Academy's 1.0 release; as in OpenColorIO's built-in configs).
+    #[test]
+    fn the_matrix_of_acescg_is_the_academys() {
+        let ap1 = [[0.713, 0.293], [0.165, 0.830], [0.128, 0.044]];
+        let white = [0.32168, 0.33767];
+        let xyz = product(&d65_from_white(white), &xyz_from_primaries(ap1, white));
+        let published = [
+            [1.70505, -0.62179, -0.08326],
+            [-0.13026, 1.14080, -0.01055],
+            [-0.02400, -0.12897, 1.15297],
+        ];
+        assert_near(&product(&RGB_FROM_XYZ, &xyz), &published, 1e-4);
+    }
+
+    /// W3C, CSS Color Module Level 4, sample code: D50 to D65 by Bradford, of the same whites.
+    #[test]
+    fn the_adaptation_from_d50_is_that_of_css_color_4() {
+        let published = [
+            [
+                0.9554734527042182,
+                -0.023098536874261423,
+                0.0632593086610217,
+            ],
+            [
+                -0.028369706963208136,
+                1.0099954580058226,
+                0.021041398966943008,
+            ],
+            [
+                0.012314001688319899,
+                -0.020507696433477912,
+                1.3303659366080753,
+            ],
+        ];
+        assert_near(&d65_from_white([0.3457, 0.3585]), &published, 1e-6);
+    }
+
+    #[test]
+    fn xyz_are_the_primaries_of_the_unit_matrix() {
+        let axes = [[1.0, 0.0], [0.0, 1.0], [0.0, 0.0]];
+        let unit = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+        assert_near(&xyz_from_primaries(axes, [1.0 / 3.0; 2]), &unit, 1e-15);
     }
 
     #[test]

@@ -242,35 +242,6 @@ pub enum SpectrumError {
         /// What was asked for.
         found: f64,
     },
-    /// A field of a table is not a number.
-    #[error("expected a number, found `{found}`")]
-    Number {
-        /// The field.
-        found: String,
-    },
-    /// A row of a table has not two fields.
-    #[error("expected two columns, wavelength in nm and value, found {found}")]
-    Columns {
-        /// How many fields there are.
-        found: usize,
-    },
-    /// A fault in a line of a file.
-    #[error("line {line}: {fault}")]
-    Line {
-        /// Which line, from 1.
-        line: usize,
-        /// What is wrong there.
-        fault: Box<SpectrumError>,
-    },
-}
-
-impl SpectrumError {
-    fn at_line(line: usize, fault: Self) -> Self {
-        Self::Line {
-            line,
-            fault: Box::new(fault),
-        }
-    }
 }
 
 #[cfg(test)]

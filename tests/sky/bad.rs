@@ -101,11 +101,16 @@ fn a_bad_catalogue_is_told_at_its_key() {
         (b"1,2,5000,x\n", "the magnitude is `x`"),
         (b"1,2,-5000,1\n", "the temperature is `-5000`"),
         (b"1,2,5000,\xff\n", "UTF-8"),
+        (b"a\n1,2,5000,1 # 20 \xb0C\n", "line 2 has the byte 0xB0"),
+        (b"\xff\xfe1\0,\x002\0", "is UTF-16 text"),
     ] {
         folder.write("stars.csv", text);
         let told = told(&folder, "stars = { file = \"stars.csv\" }");
         assert!(told.contains(message), "{told} lacks {message}");
     }
+    folder.write("stars.csv", "\"az\";el;K;m\r\"1,5\";2;5000;1,25;\r");
+    let stars = looking(0.0, 0.0, "stars = { file = \"stars.csv\" }");
+    assert!(folder.shot(1, &stars).is_ok());
     let nowhere = told(&folder, "stars = { file = \"none.csv\" }");
     assert!(nowhere.contains("there is no file"));
     for (keys, message) in [
@@ -129,13 +134,13 @@ fn a_bad_catalogue_is_told_at_its_key() {
 #[test]
 fn texels_that_are_no_light_are_warned_of_once() {
     let folder = Folder::new();
-    folder.paint("sky.exr", [2, 2], |x, _| [-0.5, f32::NAN, x as f32]);
+    folder.paint("sky.exr", [4, 2], |x, _| [-0.5, f32::NAN, x as f32]);
     let prepared = folder
         .shot(1, &looking(0.0, 0.0, "image = \"sky.exr\""))
         .unwrap();
     let warnings: Vec<_> = prepared.library.warnings(&prepared.shot).collect();
     assert_eq!(warnings.len(), 1);
-    assert!(warnings[0].1.starts_with("8 components"), "{warnings:?}");
+    assert!(warnings[0].1.starts_with("16 components"), "{warnings:?}");
 }
 
 #[test]

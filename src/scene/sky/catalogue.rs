@@ -1,7 +1,7 @@
 //! Catalogues of stars, as tables in text.
 
 use crate::shot::{MOST_STARS, STAR_KELVIN, STAR_MAGNITUDE};
-use crate::spectrum::sampled::rows;
+use crate::spectrum::sampled::Table;
 use glam::DVec3;
 
 /// A star as a catalogue has it.
@@ -51,14 +51,15 @@ pub enum CatalogueError {
 }
 
 impl Star {
-    /// Reads a catalogue: [`rows`] of azimuth (degrees, 0 is −z, positive to the right), elevation
+    /// Reads a catalogue: a [`Table`] of azimuth (degrees, 0 is −z, positive to the right), elevation
     /// (degrees), temperature (K) and visual magnitude.
     ///
     /// # Errors
     /// The first fault.
     pub fn from_csv(text: &str) -> Result<Vec<Self>, CatalogueError> {
         let mut stars = Vec::new();
-        for (line, fields) in rows(text) {
+        let table = Table::new(text);
+        for (line, fields) in table.rows() {
             if stars.len() >= MOST_STARS as usize {
                 return Err(CatalogueError::TooMany);
             }
@@ -67,7 +68,7 @@ impl Star {
                 return Err(CatalogueError::Columns { line, found });
             };
             let value = |what, field: &str, [from, to]: [f64; 2]| {
-                let number = field.parse().unwrap_or(f64::NAN);
+                let number = table.number(field).unwrap_or(f64::NAN);
                 (from..=to)
                     .contains(&number)
                     .then_some(number)

@@ -7,6 +7,7 @@
 //! up is continuous on the sphere. There is no smoothing beyond that: where texels are much
 //! smaller than pixels, as ahead of a fast camera, it is the pixel's samples that average them.
 
+use super::SkyWarning;
 use glam::DVec3;
 use std::f64::consts::{PI, TAU};
 
@@ -25,15 +26,17 @@ pub struct SkyImage {
     texels: Vec<[f32; 3]>,
     /// Colours of +y and −y.
     poles: [[f32; 3]; 2],
-    clamped: usize,
+    warnings: Vec<SkyWarning>,
 }
 
 impl SkyImage {
     /// An image of `width` ≥ 1 columns from texels by rows from the top, at least one row. What is
-    /// negative or no number becomes 0, what is infinite the greatest finite component there is.
+    /// negative or no number becomes 0, what is infinite the greatest finite component there is,
+    /// with a warning.
     pub fn new(width: usize, mut texels: Vec<[f32; 3]>) -> Self {
         let height = texels.len() / width;
-        let clamped = clamp(&mut texels);
+        let count = clamp(&mut texels);
+        let clamped = (count > 0).then_some(SkyWarning::Clamped { count });
         let mean = |row: usize| {
             let row = &texels[row * width..(row + 1) * width];
             [0, 1, 2].map(|c| {
@@ -47,13 +50,19 @@ impl SkyImage {
             height,
             texels,
             poles,
-            clamped,
+            warnings: clamped.into_iter().collect(),
         }
     }
 
-    /// How many components were negative, infinite or no number.
-    pub fn clamped(&self) -> usize {
-        self.clamped
+    /// With what else there is to say of its file.
+    pub(super) fn with_warnings(mut self, warnings: impl IntoIterator<Item = SkyWarning>) -> Self {
+        self.warnings.extend(warnings);
+        self
+    }
+
+    /// What of its file it does not show as it stands there.
+    pub fn warnings(&self) -> &[SkyWarning] {
+        &self.warnings
     }
 
     /// Columns and rows.
@@ -208,9 +217,9 @@ mod tests {
             [f32::INFINITY, f32::NEG_INFINITY, 40.0],
         ];
         let image = SkyImage::new(2, texels);
-        assert_eq!(image.clamped(), 4);
+        assert_eq!(image.warnings, [SkyWarning::Clamped { count: 4 }]);
         assert_eq!(image.texels, [[0.5, 0.0, 0.0], [40.0, 0.0, 40.0]]);
-        assert_eq!(SkyImage::new(1, vec![[0.0; 3]]).clamped(), 0);
+        assert_eq!(SkyImage::new(1, vec![[0.0; 3]]).warnings, []);
         assert_eq!(
             SkyImage::new(1, vec![[f32::INFINITY; 3]]).texels,
             [[0.0; 3]]

@@ -6,8 +6,12 @@
 mod catalogue;
 mod decode;
 mod image;
+mod openexr;
+mod primaries;
+mod radiance;
 mod random;
 mod stars;
+mod warning;
 
 use crate::spectrum::Spectrum;
 use glam::DMat3;
@@ -18,6 +22,7 @@ pub use decode::SkyImageError;
 pub use image::{MOST_PIXELS, MOST_SIDES, SkyImage};
 pub use random::random_stars;
 pub use stars::{StarLight, Stars};
+pub use warning::SkyWarning;
 
 /// The sky.
 #[derive(Debug, Clone)]

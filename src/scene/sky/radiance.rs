@@ -1,0 +1,220 @@
+//! Skies in Radiance files: their header, exposure, colors and orientation.
+//!
+//! A file is any `#?` line, lines of the header up to an empty one, a line of the resolution, and
+//! scan lines of shared exponents. Values are divided by the product of all EXPOSURE lines, and of
+//! all COLORCORR lines, so that they are the light that came in. Colors are Rec. 709's unless
+//! PRIMARIES says otherwise, as everybody but Radiance itself writes them; XYZE is CIE XYZ.
+//! Source: Ward, Radiance File Formats (radsite.lbl.gov, filefmts.pdf), Picture File Format.
+
+use super::decode::{Pixels, SkyImageError, check_size};
+use super::primaries::Primaries;
+use image::ImageDecoder;
+use image::codecs::hdr::HdrDecoder;
+use std::io::{Cursor, Read};
+
+/// Most bytes of a line of the header.
+const LONGEST_LINE: usize = 1 << 16;
+
+/// What the lines of a header say.
+struct Header {
+    /// What values are to be divided by, for each component.
+    divisor: [f64; 3],
+    primaries: Option<Primaries>,
+    order: Order,
+    /// Where pixels begin.
+    end: usize,
+}
+
+/// The order in which pixels stand in a file.
+struct Order {
+    size: [usize; 2],
+    /// Whether scan lines are rows, not columns.
+    by_rows: bool,
+    /// Whether columns and rows are counted from the left and from the top.
+    forwards: [bool; 2],
+}
+
+/// The picture that a file holds.
+pub(super) fn decode(bytes: &[u8]) -> Result<Pixels, SkyImageError> {
+    let header = header(bytes)?;
+    let Order { size, by_rows, .. } = header.order;
+    check_size(size.map(|side| side as u64), 24)?;
+    let [length, lines] = if by_rows { size } else { [size[1], size[0]] };
+    // The decoder reads one orientation and one signature; scan lines are the same in all.
+    let usual = format!("#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y {lines} +X {length}\n");
+    let file = Cursor::new(usual.into_bytes()).chain(&bytes[header.end..]);
+    let decoder = HdrDecoder::new(file).map_err(SkyImageError::broken)?;
+    // Not touched before the decoder writes to it, so that a short file with a long header is
+    // refused at once.
+    let mut values = vec![0; decoder.total_bytes() as usize];
+    decoder
+        .read_image(&mut values)
+        .map_err(SkyImageError::broken)?;
+    let (found, _) = values.as_chunks::<12>();
+    let texel = |at: usize| {
+        let (parts, _) = found[at].as_chunks::<4>();
+        let parts = [parts[0], parts[1], parts[2]].map(f32::from_ne_bytes);
+        // Without exposure the very values of the file.
+        let divided = |c: usize| (f64::from(parts[c]) / header.divisor[c]) as f32;
+        [0, 1, 2].map(divided)
+    };
+    let [width, height] = size;
+    let places = (0..height).flat_map(|row| (0..width).map(move |column| [column, row]));
+    Ok(Pixels {
+        width,
+        texels: places
+            .map(|place| texel(header.order.index(place)))
+            .collect(),
+        primaries: header.primaries,
+        warnings: Vec::new(),
+    })
+}
+
+impl Order {
+    /// Where in the file the pixel of a column and a row, from the upper left, stands.
+    fn index(&self, place: [usize; 2]) -> usize {
+        let from = |axis: usize| match self.forwards[axis] {
+            true => place[axis],
+            false => self.size[axis] - 1 - place[axis],
+        };
+        let [column, row] = [from(0), from(1)];
+        if self.by_rows {
+            row * self.size[0] + column
+        } else {
+            column * self.size[1] + row
+        }
+    }
+
+    /// Reads a line such as `-Y 512 +X 1024`. The first axis goes from one scan line to the next; Y
+    /// is counted upwards.
+    fn read(line: &str) -> Option<Self> {
+        let words: Vec<&str> = line.split_ascii_whitespace().collect();
+        let [first, lines, second, length] = words[..] else {
+            return None;
+        };
+        let by_rows = match [first, second].map(|axis| axis.get(1..)) {
+            [Some("Y"), Some("X")] => true,
+            [Some("X"), Some("Y")] => false,
+            _ => return None,
+        };
+        let forwards = |axis: &str| match axis.get(..1) {
+            Some("+") => Some(true),
+            Some("-") => Some(false),
+            _ => None,
+        };
+        let mut size = [lines.parse().ok()?, length.parse().ok()?];
+        let mut forwards = [forwards(first)?, forwards(second)?];
+        if by_rows {
+            size.reverse();
+            forwards.reverse();
+        }
+        Some(Self {
+            size,
+            by_rows,
+            forwards: [forwards[0], !forwards[1]],
+        })
+    }
+}
+
+/// Reads up to the line of the resolution.
+fn header(bytes: &[u8]) -> Result<Header, SkyImageError> {
+    let mut lines = Lines { bytes, at: 0 };
+    let mut found = Header {
+        divisor: [1.0; 3],
+        primaries: None,
+        order: Order {
+            size: [0; 2],
+            by_rows: true,
+            forwards: [true; 2],
+        },
+        end: 0,
+    };
+    // The signature: whatever follows `#?` is the name of a program.
+    lines.next()?;
+    loop {
+        let line = lines.next()?;
+        if line.is_empty() {
+            break;
+        }
+        found.take(&line)?;
+    }
+    let line = lines.next()?;
+    let expected = "two axes and their lengths, such as `-Y 512 +X 1024`";
+    found.order = Order::read(&line).ok_or_else(|| unlike(&line, expected))?;
+    found.end = lines.at;
+    Ok(found)
+}
+
+impl Header {
+    /// Takes a line in. What begins otherwise, as with a tab, is a note of some program.
+    fn take(&mut self, line: &str) -> Result<(), SkyImageError> {
+        let Some((key, value)) = line.split_once('=') else {
+            return Ok(());
+        };
+        match key {
+            "FORMAT" => match value.trim() {
+                "32-bit_rle_rgbe" => {}
+                "32-bit_rle_xyze" => self.primaries = Some(Primaries::XYZ),
+                _ => return Err(unlike(line, "`32-bit_rle_rgbe` or `32-bit_rle_xyze`")),
+            },
+            "EXPOSURE" => {
+                let [factor] = factors(value).ok_or_else(|| unlike(line, "a number above 0"))?;
+                self.divisor = self.divisor.map(|divisor| divisor * factor);
+            }
+            "COLORCORR" => {
+                let [r, g, b] = factors(value).ok_or_else(|| unlike(line, "3 numbers above 0"))?;
+                let divisor = self.divisor;
+                self.divisor = [divisor[0] * r, divisor[1] * g, divisor[2] * b];
+            }
+            // Those of XYZE are known.
+            "PRIMARIES" if self.primaries != Some(Primaries::XYZ) => {
+                let expected = "8 numbers, x and y of red, green, blue and white";
+                let [rx, ry, gx, gy, bx, by, wx, wy] =
+                    numbers(value).ok_or_else(|| unlike(line, expected))?;
+                self.primaries = Some(Primaries {
+                    rgb: [[rx, ry], [gx, gy], [bx, by]],
+                    white: [wx, wy],
+                });
+            }
+            _ => {}
+        }
+        Ok(())
+    }
+}
+
+fn unlike(line: &str, expected: &'static str) -> SkyImageError {
+    SkyImageError::Header {
+        line: line.chars().take(80).collect(),
+        expected,
+    }
+}
+
+/// As many numbers as are expected, and no more.
+fn numbers<const N: usize>(value: &str) -> Option<[f64; N]> {
+    let numbers: Option<Vec<f64>> = value.split_whitespace().map(|n| n.parse().ok()).collect();
+    numbers?.try_into().ok()
+}
+
+/// Numbers to divide by.
+fn factors<const N: usize>(value: &str) -> Option<[f64; N]> {
+    numbers(value).filter(|all| all.iter().all(|v| v.is_finite() && *v > 0.0))
+}
+
+/// The lines of a header, by LF or CR LF.
+struct Lines<'a> {
+    bytes: &'a [u8],
+    at: usize,
+}
+
+impl Lines<'_> {
+    fn next(&mut self) -> Result<String, SkyImageError> {
+        let rest = &self.bytes[self.at..];
+        let line = rest.iter().take(LONGEST_LINE).position(|b| *b == b'\n');
+        let Some(length) = line else {
+            return Err(SkyImageError::broken("its header has no end"));
+        };
+        self.at += length + 1;
+        let line = &rest[..length];
+        Ok(String::from_utf8_lossy(line.strip_suffix(b"\r").unwrap_or(line)).into_owned())
+    }
+}

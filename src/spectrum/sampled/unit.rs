@@ -1,0 +1,295 @@
+//! Units of the first column of a measured table, as headers name them.
+
+use std::fmt;
+
+/// Planck's constant times the speed of light over the elementary charge, nm·eV (SI Brochure, 9th
+/// edition, 2019: all three are exact).
+const NM_EV: f64 = 6.626_070_15e-34 * 299_792_458.0 / 1.602_176_634e-19 * 1e9;
+
+/// The speed of light, nm·THz (SI Brochure).
+const NM_THZ: f64 = 299_792.458;
+
+/// Something that a wavelength follows from.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Unit {
+    name: &'static str,
+    /// Whether it is one over the length of that name.
+    is_inverse: bool,
+    to_nm: ToNm,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum ToNm {
+    /// λ = a · x
+    Times(f64),
+    /// λ = a / x
+    Over(f64),
+}
+
+/// Words for units in lower case with the micro sign; those of 5 letters and more also begin words.
+const WORDS: [(&[&str], &str, ToNm); 14] = [
+    (
+        &["nm", "nanom", "mµ", "millimicron"],
+        "nm",
+        ToNm::Times(1.0),
+    ),
+    (
+        &["µm", "um", "microm", "mikrom", "micron"],
+        "µm",
+        ToNm::Times(1e3),
+    ),
+    (&["å", "angstr", "ångstr"], "Å", ToNm::Times(0.1)),
+    (&["pm", "picom"], "pm", ToNm::Times(1e-3)),
+    (&["mm", "millim"], "mm", ToNm::Times(1e6)),
+    (&["cm", "centim", "zentim"], "cm", ToNm::Times(1e7)),
+    (&["meter", "metre"], "m", ToNm::Times(1e9)),
+    (&["ev", "electronv", "elektronenv"], "eV", ToNm::Over(NM_EV)),
+    (&["kev"], "keV", ToNm::Over(NM_EV * 1e-3)),
+    (&["hz", "hertz"], "Hz", ToNm::Over(NM_THZ * 1e12)),
+    (&["khz"], "kHz", ToNm::Over(NM_THZ * 1e9)),
+    (&["mhz", "megah"], "MHz", ToNm::Over(NM_THZ * 1e6)),
+    (&["ghz", "gigah"], "GHz", ToNm::Over(NM_THZ * 1e3)),
+    (&["thz", "terah"], "THz", ToNm::Over(NM_THZ)),
+];
+
+/// Symbols that mean something else in another case.
+const SYMBOLS: [(&str, ToNm); 3] = [
+    ("m", ToNm::Times(1e9)),
+    ("meV", ToNm::Over(NM_EV * 1e3)),
+    ("MeV", ToNm::Over(NM_EV * 1e-6)),
+];
+
+/// What follows a unit that is inverted, and one that is squared or cubed.
+const INVERTED: [&str; 7] = ["-1", "^-1", "^{-1}", "^(-1)", "**-1", "⁻¹", "−1"];
+const RAISED: [&str; 12] = [
+    "2", "^2", "²", "-2", "^-2", "⁻²", "3", "^3", "³", "-3", "^-3", "⁻³",
+];
+
+/// Words that need no unit to be understood.
+const WAVENUMBERS: [&str; 4] = ["wavenumber", "wave number", "wellenzahl", "kayser"];
+
+impl Unit {
+    /// The wavelength of a number in this unit, nm.
+    pub fn nm(&self, number: f64) -> f64 {
+        match self.to_nm {
+            ToNm::Times(factor) => number * factor,
+            ToNm::Over(factor) => factor / number,
+        }
+    }
+
+    /// Whether it is the nm itself.
+    pub fn is_nm(&self) -> bool {
+        self.to_nm == ToNm::Times(1.0)
+    }
+
+    /// Whether it is none of length: a density in it is not one over wavelength.
+    pub fn is_reciprocal(&self) -> bool {
+        matches!(self.to_nm, ToNm::Over(_))
+    }
+
+    /// The unit that the name of a column holds, if any.
+    pub(super) fn of(name: &str) -> Option<Self> {
+        // A power of ten belongs to the unit.
+        if name.contains("10") {
+            return None;
+        }
+        let found = words(name).find_map(|word| word.unit());
+        let lower = name.to_lowercase();
+        if WAVENUMBERS.iter().any(|word| lower.contains(word)) {
+            let length = found.unwrap_or(Self::plain("cm", ToNm::Times(1e7)));
+            return length.inverse();
+        }
+        // Elsewhere A is area, ampere or absorbance.
+        let alone = name.trim_matches(|c: char| !c.is_alphanumeric()) == "A";
+        let angstrom = || alone || ["(A)", "[A]", "/ A", "/A"].iter().any(|a| name.contains(a));
+        found.or_else(|| angstrom().then(|| Self::plain("Å", ToNm::Times(0.1))))
+    }
+
+    /// Whether a column's values are per unit of something else than the nm.
+    pub(super) fn divides(name: &str) -> bool {
+        words(name).any(|word| {
+            let Some(unit) = word.plain_unit() else {
+                return false;
+            };
+            let raised = RAISED.iter().any(|power| word.after.starts_with(power));
+            let over = word.before.ends_with('/') || word.before.ends_with("per ");
+            // Lumens per metre are those of a whole strip of light.
+            let over = over && !["m", "cm", "mm"].contains(&unit.name);
+            unit.name != "nm" && (word.is_inverted() || over && !raised)
+        })
+    }
+
+    fn plain(name: &'static str, to_nm: ToNm) -> Self {
+        Self {
+            name,
+            is_inverse: false,
+            to_nm,
+        }
+    }
+
+    /// One over a length; one over anything else is nothing.
+    fn inverse(self) -> Option<Self> {
+        match self.to_nm {
+            ToNm::Times(factor) => Some(Self {
+                is_inverse: true,
+                to_nm: ToNm::Over(factor),
+                ..self
+            }),
+            ToNm::Over(_) => self.is_inverse.then_some(self),
+        }
+    }
+}
+
+impl fmt::Display for Unit {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name)?;
+        f.write_str(if self.is_inverse { "⁻¹" } else { "" })
+    }
+}
+
+/// A run of letters and what stands around it.
+struct Word<'a> {
+    before: &'a str,
+    text: &'a str,
+    after: &'a str,
+}
+
+/// The runs of letters of a text.
+fn words(text: &str) -> impl Iterator<Item = Word<'_>> {
+    let mut at = 0;
+    std::iter::from_fn(move || {
+        let from = at + text[at..].find(char::is_alphabetic)?;
+        let length = text[from..].find(|c: char| !c.is_alphabetic());
+        at = length.map_or(text.len(), |length| from + length);
+        Some(Word {
+            before: &text[..from],
+            text: &text[from..at],
+            after: &text[at..],
+        })
+    })
+}
+
+impl Word<'_> {
+    /// The unit that it is, inverted where it stands so.
+    fn unit(&self) -> Option<Unit> {
+        let unit = self.plain_unit()?;
+        if self.is_inverted() {
+            unit.inverse()
+        } else {
+            Some(unit)
+        }
+    }
+
+    /// The unit that it is, or that the last word of its `camelCase` is.
+    fn plain_unit(&self) -> Option<Unit> {
+        let last = self.text.rfind(char::is_uppercase).unwrap_or(0);
+        called(self.text).or_else(|| called(&self.text[last..]))
+    }
+
+    fn is_inverted(&self) -> bool {
+        let one_over = self.before.trim_end().strip_suffix('/');
+        one_over.is_some_and(|before| before.trim_end().ends_with('1'))
+            || INVERTED.iter().any(|power| self.after.starts_with(power))
+    }
+}
+
+/// The unit of a name.
+fn called(word: &str) -> Option<Unit> {
+    if let Some((name, to_nm)) = SYMBOLS.iter().find(|(symbol, _)| *symbol == word) {
+        return Some(Unit::plain(name, *to_nm));
+    }
+    // The Greek letter is the micro sign.
+    let lower = word.to_lowercase().replace('\u{3bc}', "\u{b5}");
+    let is = |own: &&&str| lower == **own || own.len() >= 5 && lower.starts_with(**own);
+    let found = WORDS
+        .iter()
+        .find(|(own, ..)| own.iter().any(|own| is(&own)));
+    found.map(|(_, name, to_nm)| Unit::plain(name, *to_nm))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn nm(name: &str, number: f64) -> f64 {
+        Unit::of(name).map_or(f64::NAN, |unit| unit.nm(number))
+    }
+
+    /// 500 nm are 0.5 µm, 5000 Å, 20000 cm⁻¹, 2.479684 eV and 599.584916 THz.
+    #[test]
+    fn five_hundred_nanometres_are_met_in_every_unit() {
+        for (name, number) in [
+            ("wavelength (nm)", 500.0),
+            ("WAVELENGTH (NM)", 500.0),
+            ("WavelengthNm", 500.0),
+            ("wl_nm", 500.0),
+            ("Wellenlänge in nm", 500.0),
+            ("Wavelength / nanometers", 500.0),
+            ("lambda [mµ]", 500.0),
+            ("wavelength (um)", 0.5),
+            ("Wavelength [\u{3bc}m]", 0.5),
+            ("Wavelength [\u{b5}m]", 0.5),
+            ("microns", 0.5),
+            ("wavelength_micrometers", 0.5),
+            ("Wavelength (Å)", 5000.0),
+            ("Wavelength (A)", 5000.0),
+            ("Wavelength (\u{212b})", 5000.0),
+            ("Angstroms", 5000.0),
+            ("wavelength (m)", 5e-7),
+            ("wavelength_mm", 5e-4),
+            ("Wavenumber (cm-1)", 2e4),
+            ("cm^-1", 2e4),
+            ("wavenumber [cm⁻¹]", 2e4),
+            ("1/cm", 2e4),
+            ("Wavenumber", 2e4),
+            ("Wavenumber (cm)", 2e4),
+            ("wavenumber (1/µm)", 2.0),
+            ("Energy (eV)", 2.479_683_968_664),
+            ("photonEnergy_eV", 2.479_683_968_664),
+            ("E [meV]", 2_479.683_968_664),
+            ("frequency (THz)", 599.584_916),
+            ("nu_Hz", 599.584_916e12),
+        ] {
+            let found = nm(name, number);
+            assert!((found / 500.0 - 1.0).abs() < 1e-9, "{name}: {found}");
+        }
+    }
+
+    #[test]
+    fn what_names_no_unit_has_none() {
+        for name in [
+            "wavelength",
+            "lambda",
+            "λ",
+            "frequency",
+            "Energy",
+            "A1",
+            "wavelength (10^-9 m)",
+            "Sample",
+        ] {
+            assert_eq!(Unit::of(name), None, "{name}");
+        }
+    }
+
+    #[test]
+    fn densities_per_another_unit_are_seen() {
+        for name in [
+            "radiance (W/m2/sr/um)",
+            "W m^-2 sr^-1 µm^-1",
+            "per eV",
+            "W/m2/Hz",
+        ] {
+            assert!(Unit::divides(name), "{name}");
+        }
+        for name in [
+            "radiance (W/m2/sr/nm)",
+            "W·m⁻²·sr⁻¹·nm⁻¹",
+            "R",
+            "uW/cm2/nm",
+            "lm/m",
+            "mm",
+        ] {
+            assert!(!Unit::divides(name), "{name}");
+        }
+    }
+}
