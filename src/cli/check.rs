@@ -1,6 +1,6 @@
 //! `restframe check`.
 
-use super::render::warn;
+use super::render::{warn, warnings};
 use super::{Failed, MISTAKE, mistaken, print, print_json};
 use crate::queue::Prepared;
 use serde_json::json;
@@ -40,11 +40,7 @@ pub(super) fn run(shots: &[PathBuf], as_json: bool) -> Result<(), Failed> {
 }
 
 fn sound(prepared: &Prepared) -> serde_json::Value {
-    let warnings: Vec<String> = prepared
-        .library
-        .warnings(&prepared.shot)
-        .map(|(file, warning)| format!("{}: {warning}", file.display()))
-        .collect();
+    let warnings = warnings(prepared);
     json!({
         "shot": prepared.shot.path.to_string_lossy(),
         "ok": true,

@@ -195,8 +195,9 @@ pub(super) fn warn(prepared: &Prepared) {
     }
 }
 
-/// What the shot's files ask for and the picture will not show, each once.
-fn warnings(prepared: &Prepared) -> Vec<String> {
+/// What the shot's files ask for and the picture will not show, each once, and what its sensor
+/// cannot tell apart.
+pub(super) fn warnings(prepared: &Prepared) -> Vec<String> {
     let mut seen: Vec<(&Path, String)> = Vec::new();
     for warning in prepared.library.warnings(&prepared.shot) {
         if !seen.contains(&warning) {
@@ -204,7 +205,16 @@ fn warnings(prepared: &Prepared) -> Vec<String> {
         }
     }
     let line = |(file, warning): (&Path, String)| format!("{}: {warning}", file.display());
-    seen.into_iter().map(line).collect()
+    let of_files = seen.into_iter().map(line);
+    let shot = prepared.shot.path.display();
+    of_files
+        .chain(
+            prepared
+                .unresolved()
+                .iter()
+                .map(|pair| format!("{shot}: {pair}")),
+        )
+        .collect()
 }
 
 /// A scale that makes an image larger than any may be.

@@ -3,8 +3,10 @@
 use super::frames::FrameList;
 use super::shifts::refuse_shifted_numbers;
 use crate::film::EncodeError;
+use crate::plan;
 use crate::render::{Options, metered_exposure};
 use crate::scene::{Library, Scene};
+use crate::shade::{Settings, Unresolved, unresolved};
 use crate::shot::{self, Exposure, Mistakes, Shot};
 use crate::trace::Stage;
 use std::path::{Path, PathBuf};
@@ -80,6 +82,23 @@ impl Prepared {
         }
         refuse_shifted_numbers(&shot)?;
         Ok(Self { shot, library })
+    }
+
+    /// Materials and lamps of frame 1 whose bands the sensor's wavelengths cannot tell apart.
+    pub fn unresolved(&self) -> Vec<Unresolved> {
+        let scene = Scene::resolve(&self.shot, &self.library, 1, None);
+        let called = plan::called(&self.shot, 1, &self.shot.effects);
+        let (Ok(scene), Ok(called)) = (scene, called) else {
+            return Vec::new();
+        };
+        let settings = Settings {
+            called: &called,
+            accuracy: &self.shot.accuracy,
+            sensor: &self.shot.sensor,
+            reach: 1.0,
+            lamp_reach: 1.0,
+        };
+        unresolved(&scene, &settings)
     }
 
     /// How the shot's frames are exposed; and frame 1, where metering had to build it.

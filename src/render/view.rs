@@ -112,7 +112,7 @@ impl<'a> View<'a> {
         let settings = Settings {
             called: &self.called,
             accuracy: &Accuracy {
-                spectra: Spectra::Spline,
+                spectra: Spectra::Exact,
                 wavelengths,
                 ..Accuracy::default()
             },

@@ -31,7 +31,9 @@ mod shader;
 mod sky;
 mod table;
 mod thermal;
+mod unresolved;
 
 pub use bake::Settings;
 pub use radiance::Radiance;
 pub use shader::{ShadeScratch, Shader};
+pub use unresolved::{Unresolved, unresolved};

@@ -120,12 +120,15 @@ impl Narrow {
 impl CurveShader {
     /// The channels of the product of two narrow curves under shifts of their own.
     pub(super) fn meeting(&self, one: &Reading<'_>, other: &Reading<'_>) -> [f64; 3] {
-        let product = Product {
-            factor: 1.0,
-            readings: vec![*one, *other],
-            rest: None,
-        };
+        let product = product(1.0, vec![*one, *other], None);
         self.product_channels(&product)
+    }
+
+    /// The same where they share too much to be integrated together for a ray; None where they are.
+    pub(super) fn apart(&self, one: &Reading<'_>, other: &Reading<'_>) -> Option<[f64; 3]> {
+        let product = product(1.0, vec![*one, *other], None);
+        let shared = self.shared(&[one, other], &product);
+        shared.is_none().then(|| self.product_channels(&product))
     }
 
     /// Light of a node by way of mirrors and glass that color it, where some of the curves are
@@ -285,13 +288,20 @@ impl Product<'_> {
     }
 }
 
-/// The products that a source is the sum of.
-fn products<'a>(source: &'a Source<'a>) -> Vec<Product<'a>> {
-    let product = |factor, readings, rest| Product {
+fn product<'a>(
+    factor: f64,
+    readings: Vec<Reading<'a>>,
+    rest: Option<&'a Source<'a>>,
+) -> Product<'a> {
+    Product {
         factor,
         readings,
         rest,
-    };
+    }
+}
+
+/// The products that a source is the sum of.
+fn products<'a>(source: &'a Source<'a>) -> Vec<Product<'a>> {
     match source {
         Source::Curve { factor, reading } => vec![product(*factor, vec![*reading], None)],
         Source::Glow(glow) => {

@@ -39,10 +39,7 @@ impl Shader {
             settings.sensor.window,
             settings.accuracy.wavelengths as usize,
         );
-        let sensor = match settings.sensor.color {
-            SensorColor::Cie1931 => Sensor::cie1931(axis),
-            SensorColor::Bands => Sensor::bands(axis),
-        };
+        let sensor = sensor(settings.sensor, axis);
         let exact = quadrature(settings.sensor);
         let held = match settings.accuracy.spectra {
             Spectra::Grid | Spectra::Spline => {
@@ -117,8 +114,16 @@ impl Shader {
     }
 }
 
+/// A shot's sensor over an axis.
+pub(super) fn sensor(sensor: &shot::Sensor, axis: LogAxis) -> Sensor {
+    match sensor.color {
+        SensorColor::Cie1931 => Sensor::cie1931(axis),
+        SensorColor::Bands => Sensor::bands(axis),
+    }
+}
+
 /// The integrals that a sensor's channels stand for.
-fn quadrature(sensor: &shot::Sensor) -> Quadrature {
+pub(super) fn quadrature(sensor: &shot::Sensor) -> Quadrature {
     match sensor.color {
         SensorColor::Cie1931 => Quadrature::cie1931(sensor.window),
         SensorColor::Bands => Quadrature::bands(sensor.window),

@@ -123,19 +123,24 @@ impl Fine {
     /// Whether a spectrum may do anything within so little of an axis' spacing that its sums could
     /// miss it.
     pub fn is_worth_a_look(axis: LogAxis, spectrum: &Spectrum) -> bool {
-        let finest = match spectrum {
+        Self::finest(spectrum).is_some_and(|finest| finest < WIDE * axis.spacing())
+    }
+
+    /// The width in ln λ of a bell, or of the closest points of a curve through points; None of what
+    /// is smooth by its nature.
+    pub fn finest(spectrum: &Spectrum) -> Option<f64> {
+        match spectrum {
             Spectrum::Gaussian {
                 center_nm,
                 width_nm,
-            } => width_nm / center_nm.abs(),
+            } => Some(width_nm / center_nm.abs()),
             Spectrum::Cardinal(_) | Spectrum::Sampled(_) => {
                 let gaps = spectrum.knots_nm().windows(2);
                 gaps.map(|pair| (pair[1] / pair[0]).ln())
-                    .fold(f64::INFINITY, f64::min)
+                    .min_by(f64::total_cmp)
             }
-            _ => f64::INFINITY,
-        };
-        finest < WIDE * axis.spacing()
+            _ => None,
+        }
     }
 
     /// Whether sums over the axis of `baked`, the same curve, are as good: whether under a weight

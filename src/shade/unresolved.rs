@@ -1,0 +1,120 @@
+//! What the sensor's wavelengths cannot tell apart: materials and lamps that both have narrow bands
+//! all over the spectrum, and move against each other.
+//!
+//! Where one shift serves both their product is integrated, and so it is where one of them is a few
+//! lines; here one is read by its means over the axis' spacing, which is right as far as its bands
+//! have nothing to do with those of the other.
+
+use super::bake::{Reflecting, Settings};
+use super::curves::CurveShader;
+use super::exact::Reading;
+use super::shader;
+use crate::scene::Scene;
+use crate::shot::Spectra;
+use crate::spectrum::{Fine, LogAxis, Spectrum};
+use std::fmt;
+
+/// From which share of their light on it is worth a word.
+const TOLD: f64 = 0.01;
+
+/// A pair whose light may be off where they move against each other.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Unresolved {
+    /// The material.
+    pub material: String,
+    /// The lamp.
+    pub light: String,
+    /// By how much, over the greatest channel: measured where both have the same shift.
+    pub error: f64,
+    /// The sensor's wavelengths, and how many would be as close as the bands; more than a shot may
+    /// have where none would.
+    pub wavelengths: [f64; 2],
+}
+
+impl fmt::Display for Unresolved {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let [now, enough] = self.wavelengths;
+        write!(
+            f,
+            "material \"{}\" under \"{}\": both have bands narrower than the {now} wavelengths are \
+             apart; where they move against each other their light may be off by {:.0} %; ",
+            self.material,
+            self.light,
+            100.0 * self.error,
+        )?;
+        if enough <= MOST_WAVELENGTHS {
+            write!(
+                f,
+                "`accuracy.wavelengths = {enough}` would tell them apart, "
+            )?;
+        }
+        write!(f, "`accuracy.spectra = \"exact\"` is right")
+    }
+}
+
+/// Most that a shot may have.
+const MOST_WAVELENGTHS: f64 = 4096.0;
+
+/// All such pairs of a scene; none where curves do not shift or are not held over wavelengths.
+///
+/// Costs nothing where no curve has anything narrow.
+pub fn unresolved(scene: &Scene, settings: &Settings<'_>) -> Vec<Unresolved> {
+    let axis = LogAxis::new(
+        settings.sensor.window,
+        settings.accuracy.wavelengths as usize,
+    );
+    let grid = matches!(settings.accuracy.spectra, Spectra::Grid | Spectra::Spline);
+    let looked_at = scene
+        .lights
+        .iter()
+        .any(|light| Fine::is_worth_a_look(axis, &light.spectrum));
+    if !settings.called.doppler || !grid || !looked_at {
+        return Vec::new();
+    }
+    let exact = shader::quadrature(settings.sensor);
+    let sensor = shader::sensor(settings.sensor, axis);
+    let shader = CurveShader::new(scene, settings, sensor, &exact);
+    let mut pairs = Vec::new();
+    for (material, curves) in scene.materials.iter().zip(&shader.surfaces) {
+        for (light, (emitter, _)) in scene.lights.iter().zip(&shader.lamps) {
+            let errors = curves.reflecting().flatten();
+            let errors = errors.filter_map(|term| shader.lost(term, *emitter));
+            let error = errors.fold(0.0, f64::max);
+            if error > TOLD {
+                pairs.push(Unresolved {
+                    material: material.name.clone(),
+                    light: light.name.clone(),
+                    error,
+                    wavelengths: [axis.count() as f64, enough(axis, &light.spectrum)],
+                });
+            }
+        }
+    }
+    pairs
+}
+
+/// Wavelengths that are as close as the closest points of a lamp.
+fn enough(axis: LogAxis, lamp: &Spectrum) -> f64 {
+    let width = axis.spacing() * axis.count() as f64;
+    Fine::finest(lamp).map_or(f64::INFINITY, |finest| (2.0 * width / finest).ceil())
+}
+
+impl CurveShader {
+    /// By how much the light of a lamp on a term is off where the two do not share their shift; None
+    /// where it is integrated.
+    fn lost(&self, term: &Reflecting, emitter: usize) -> Option<f64> {
+        let light = &self.emitters[emitter].curve;
+        let readings = [&term.reflectance, light].map(|curve| Reading { curve, shift: 1.0 });
+        if readings
+            .iter()
+            .any(|reading| reading.curve.narrow().is_none())
+        {
+            return None;
+        }
+        let exact = term.tables[emitter].as_ref()?.at(0.0);
+        let found = self.apart(&readings[0], &readings[1])?;
+        let greatest = exact.into_iter().fold(f64::MIN_POSITIVE, f64::max);
+        let off = (0..3).map(|c| (found[c] - exact[c]).abs() / greatest);
+        Some(off.fold(0.0, f64::max))
+    }
+}
