@@ -13,5 +13,6 @@ mod models {
     pub(crate) mod bad;
     pub(crate) mod blender;
     pub(crate) mod fuzz;
+    pub(crate) mod obj;
     pub(crate) mod shapes;
 }
