@@ -41,7 +41,7 @@ const BEFORE_NUMBERS: [&str; 10] = ["v", "vn", "f", "Kd", "Ke", "d", "Tr", "Pm",
 pub fn is_utf16(bytes: &[u8]) -> bool {
     matches!(
         bytes,
-        [0xFF, 0xFE, ..] | [0xFE, 0xFF, ..] | [0, _, ..] | [_, 0, ..]
+        [0xFF, 0xFE, ..] | [0xFE, 0xFF, ..] | [0, 1..=255, ..] | [1..=255, 0, ..]
     )
 }
 
@@ -117,9 +117,10 @@ pub fn each_obj_line<E>(
         }
         last = number;
         let is_first = begun.is_empty();
-        let keyword = keyword_and_rest(if is_first { line } else { &begun }).0;
-        let is_comment = keyword.starts_with('#') || before_comment(keyword, line) != line;
-        let goes_on = line.ends_with('\\') && !is_comment;
+        let goes_on = line.ends_with('\\') && {
+            let keyword = keyword_and_rest(if is_first { line } else { &begun }).0;
+            !keyword.starts_with('#') && before_comment(keyword, line) == line
+        };
         if is_first && !goes_on {
             return each(number, line);
         }

@@ -137,7 +137,7 @@ fn faces_of_fewer_than_three_corners_are_left_out_and_counted() {
     assert_eq!((model.triangles(), model.area()), (2, 4.0));
     assert_eq!(
         told(&model),
-        ["4 faces of fewer than 3 corners have no area and are left out, the first in line 6"]
+        ["faces of fewer than 3 corners have no area and are left out: 4, the first in line 6"]
     );
 }
 
@@ -184,12 +184,9 @@ fn comments_stand_behind_anything() {
     assert_eq!(
         told(&model),
         [
-            "object ``: colors at vertices are not read; it has the color of its material alone"
-                .replace("object ``", "the mesh"),
-            "material `Red`: is see-through (`d`, `Tr`); it is drawn opaque, nothing shows through"
-                .to_owned(),
-            "material `Red`: is a metal; it is drawn as matt paint of the same color, without reflections"
-                .to_owned(),
+            "the mesh: colors at vertices are not read; it has the color of its material alone",
+            "material `Red`: is see-through (`d`, `Tr`); it is drawn opaque, nothing shows through",
+            "material `Red`: is a metal; it is drawn as matt paint of the same color, without reflections",
         ]
     );
 }

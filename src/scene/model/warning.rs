@@ -218,7 +218,7 @@ impl fmt::Display for Warning {
             }
             Self::FewCorners { count, line } => write!(
                 f,
-                "{count} faces of fewer than 3 corners have no area and are left out, the first in line {line}"
+                "faces of fewer than 3 corners have no area and are left out: {count}, the first in line {line}"
             ),
             Self::NamesNone { what, line } => write!(
                 f,
