@@ -16,8 +16,9 @@ fn number(word: &str) -> Option<f64> {
     word.parse().ok().or_else(|| {
         let bare = word.strip_prefix(['+', '-']).unwrap_or(word);
         let bare = bare.to_ascii_lowercase();
-        let is_letters = |text: &str| text.bytes().all(|b| b.is_ascii_alphanumeric());
-        if let Some(kind) = bare.strip_prefix("1.#").filter(|kind| is_letters(kind)) {
+        let is_word =
+            |text: &str| !text.is_empty() && text.bytes().all(|b| b.is_ascii_alphanumeric());
+        if let Some(kind) = bare.strip_prefix("1.#").filter(|kind| is_word(kind)) {
             let is_infinite = kind.starts_with("inf");
             return Some(if is_infinite { f64::INFINITY } else { f64::NAN });
         }
