@@ -15,5 +15,6 @@ mod models {
     pub(crate) mod fuzz;
     pub(crate) mod lenient;
     pub(crate) mod no_material;
+    pub(crate) mod obj;
     pub(crate) mod shapes;
 }

@@ -269,23 +269,6 @@ fn line(center_nm: f64, width_nm: f64) -> Spectrum {
     Spectrum::gaussian(center_nm, width_nm).unwrap()
 }
 
-fn d65() -> Spectrum {
-    illuminant("D65").unwrap()
-}
-
-/// The red of the paper's spheres: steep, and bent at its points.
-fn paint() -> Spectrum {
-    let points = [
-        (560.0, 0.0),
-        (600.0, 0.08),
-        (630.0, 0.65),
-        (650.0, 0.9),
-        (670.0, 0.65),
-        (700.0, 0.08),
-    ];
-    Spectrum::Cardinal(Cardinal::new(&points, 0.0, Beyond::Hold).unwrap())
-}
-
 /// A measured table with two lines on a weak ground.
 fn table(center_nm: f64, half_nm: f64) -> Spectrum {
     let points = [

@@ -1,10 +1,14 @@
 //! Hashes of the files that a shot reads: models with all that they name, spectra, skies, stars.
 
-use crate::shot::{FileError, GltfJson, MODEL_BYTES, Mistakes, ModelFiles, Opened, Shot};
+use crate::shot::{
+    FileError, GltfJson, MODEL_BYTES, Mistakes, ModelFiles, Opened, Shot, each_obj_line,
+    keyword_and_rest,
+};
 use blake3::{Hash, Hasher};
 use indexmap::{IndexMap, IndexSet};
+use std::convert::Infallible;
 use std::fs::File;
-use std::io::{self, BufRead, Read};
+use std::io::{self, BufRead, BufReader, Read};
 use std::path::{Path, PathBuf};
 
 /// BLAKE3 of every file that a shot reads, each read once and none kept. What a broken file lacks
@@ -91,7 +95,8 @@ fn model(shot: &Shot, file: &Path, path: &Path) -> Result<Digest, FileError> {
     let hash = if is_obj {
         let (hash, libraries) = opened.read(obj)?;
         for name in libraries {
-            parts.extend(files.libraries(&name)?);
+            let found = files.libraries(&name)?.into_iter();
+            parts.extend(found.filter_map(|library| library.found));
         }
         hash
     } else {
@@ -128,26 +133,25 @@ fn rest(mut hasher: Hasher, file: &mut impl Read) -> io::Result<Hash> {
 fn obj(file: &mut impl BufRead) -> io::Result<(Hash, IndexSet<String>)> {
     let mut hasher = Hasher::new();
     let mut libraries = IndexSet::new();
-    let (mut bytes, mut joined) = (Vec::new(), String::new());
-    while file.read_until(b'\n', &mut bytes)? > 0 {
-        hasher.update(&bytes);
-        let line = String::from_utf8_lossy(&bytes);
-        let line = line.trim();
-        if let Some(part) = line.strip_suffix('\\') {
-            joined.push_str(part);
-            joined.push(' ');
-        } else {
-            joined.push_str(line);
-            if let Some((keyword, name)) = joined.split_once(char::is_whitespace)
-                && keyword == "mtllib"
-            {
-                libraries.insert(name.trim().to_owned());
-            }
-            joined.clear();
+    let seen = BufReader::new(Seen(file, &mut hasher));
+    let Ok(()) = each_obj_line(seen, |_, line| -> Result<(), Infallible> {
+        if let ("mtllib", name) = keyword_and_rest(line) {
+            libraries.insert(name.to_owned());
         }
-        bytes.clear();
-    }
+        Ok(())
+    })?;
     Ok((hasher.finalize(), libraries))
+}
+
+/// A file whose bytes are hashed as they are read.
+struct Seen<'a, R>(&'a mut R, &'a mut Hasher);
+
+impl<R: Read> Read for Seen<'_, R> {
+    fn read(&mut self, bytes: &mut [u8]) -> io::Result<usize> {
+        let count = self.0.read(bytes)?;
+        self.1.update(&bytes[..count]);
+        Ok(count)
+    }
 }
 
 /// The hash of a glTF or glb file, and the URIs of its buffers; images are not read.

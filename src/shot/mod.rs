@@ -25,6 +25,7 @@ mod model_files;
 mod named_files;
 mod names;
 mod nearby;
+mod obj_lines;
 mod schema;
 mod sequence;
 mod settings;
@@ -51,7 +52,10 @@ pub use gltf_json::{GltfJson, TextFault};
 pub use light::{Light, LightKind};
 pub use load::{MAX_BYTES, load, parse};
 pub use mistake::{Mistake, Mistakes, Places};
-pub use model_files::{FileError, MODEL_BYTES, ModelFiles, Opened};
+pub use model_files::{FileError, Library, MODEL_BYTES, ModelFiles, Opened};
+pub use obj_lines::{
+    OBJ_KEYWORDS, before_comment, each_line, each_obj_line, is_utf16, keyword_and_rest,
+};
 pub use schema::schema;
 pub use sequence::{Corner, Inset, InsetPixel, PixelName, Sequence, Sheet, Video};
 pub use settings::{

@@ -1,11 +1,15 @@
 //! The files that a model may read: its own, and those it names within the folders allowed. Whoever
 //! reads a model, and whoever only hashes it, does so here.
 
+mod libraries;
+
 use super::nearby::nearby;
 use indexmap::IndexSet;
 use std::fs::{self, File};
 use std::io::{BufReader, ErrorKind, Read};
 use std::path::{Component, Path, PathBuf};
+
+pub use libraries::Library;
 
 /// Bytes read for one model at most, files that it names included: 2 GiB.
 pub const MODEL_BYTES: u64 = 2 << 30;
@@ -167,13 +171,7 @@ impl ModelFiles {
     /// # Errors
     /// When the model may not read it, or it is not there, no file, or too large.
     pub fn part(&mut self, name: &str) -> Result<Opened, FileError> {
-        let has_scheme = name.split_once(':').is_some_and(|(scheme, _)| {
-            scheme.starts_with(|c: char| c.is_ascii_alphabetic())
-                && scheme
-                    .chars()
-                    .all(|c| c.is_ascii_alphanumeric() || "+.-".contains(c))
-        });
-        if has_scheme || name.starts_with(['/', '\\']) {
+        if is_absolute(name) {
             return Err(self.bad_uri(name, "absolute or remote"));
         }
         let outside = || FileError::Outside {
@@ -217,24 +215,6 @@ impl ModelFiles {
             }
         }
         Err(missing.unwrap_or_else(|| self.bad_uri(uri, "no file name")))
-    }
-
-    /// Opens the material library of an `mtllib` line: the file of that name or, since names may
-    /// hold blanks and a line may hold names, its words. Those that are not there are passed over.
-    ///
-    /// # Errors
-    /// As [`ModelFiles::part`], but for missing files.
-    pub fn libraries(&mut self, name: &str) -> Result<Vec<(String, Opened)>, FileError> {
-        if let Some(whole) = found(self.part(name))? {
-            return Ok(vec![(name.to_owned(), whole)]);
-        }
-        let mut libraries = Vec::new();
-        for word in name.split_whitespace() {
-            if let Some(opened) = found(self.part(word))? {
-                libraries.push((word.to_owned(), opened));
-            }
-        }
-        Ok(libraries)
     }
 
     /// The error for a file name that cannot be used.
@@ -283,12 +263,15 @@ fn did_you_mean(meant: &Option<String>) -> String {
     meant.as_deref().map_or_else(String::new, hint)
 }
 
-/// None where the model names a file that is not there.
-fn found(opened: Result<Opened, FileError>) -> Result<Option<Opened>, FileError> {
-    match opened {
-        Err(FileError::MissingPart { .. }) => Ok(None),
-        opened => opened.map(Some),
-    }
+/// Whether a name is a path from a root, of this system or another, or a URL.
+fn is_absolute(name: &str) -> bool {
+    let has_scheme = name.split_once(':').is_some_and(|(scheme, _)| {
+        scheme.starts_with(|c: char| c.is_ascii_alphabetic())
+            && scheme
+                .chars()
+                .all(|c| c.is_ascii_alphanumeric() || "+.-".contains(c))
+    });
+    has_scheme || name.starts_with(['/', '\\'])
 }
 
 /// The path with `.` and `..` taken out by the letters, links not followed.

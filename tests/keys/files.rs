@@ -121,6 +121,12 @@ fn material_libraries_are_found_as_the_loader_finds_them() {
         ("mtllib \\\npaints.mtl", 1),
         ("mtllib none.mtl", 0),
         ("# mtllib paints.mtl", 0),
+        ("mtllib", 0),
+        ("\u{FEFF}mtllib paints.mtl", 1),
+        ("# a folder\\\nmtllib paints.mtl", 1),
+        ("# old\rmtllib paints.mtl\r", 1),
+        ("mtllib paints.mtl # and no more", 1),
+        ("mtllib C:\\lib\\PAINTS.MTL", 1),
     ] {
         let desk = Desk::new();
         desk.put("more.mtl", "newmtl x\n");

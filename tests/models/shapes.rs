@@ -221,7 +221,8 @@ fn obj_parts_of_one_name_and_material_are_one_mesh() {
     );
     assert_eq!(model.meshes[2].normals, None);
     assert!(model.warnings.contains(&Warning::MissingLibrary {
-        name: "gone.mtl".into()
+        name: "gone.mtl".into(),
+        near: None,
     }));
 }
 

@@ -33,6 +33,12 @@ pub enum ModelError {
         /// What stands there.
         found: String,
     },
+    /// Text of two bytes a letter.
+    #[error("`{}` is text in UTF-16, expected UTF-8: save it as UTF-8", file.display())]
+    Utf16 {
+        /// The OBJ or MTL file.
+        file: PathBuf,
+    },
     /// A line of an OBJ or MTL file that cannot be understood.
     #[error("{}:{line}: found `{found}`, expected {expected}", file.display())]
     Line {
@@ -58,6 +64,16 @@ pub enum ModelError {
         index: i64,
         /// How many there are.
         count: i64,
+    },
+    /// A face of an OBJ file counts from 0.
+    #[error("{}:{line}: the face asks for {what} 0, but indices begin at 1: export the model again from a program that counts so", file.display())]
+    ObjIndexZero {
+        /// The model file.
+        file: PathBuf,
+        /// Line, from 1.
+        line: usize,
+        /// "position", "texture coordinate" or "normal".
+        what: &'static str,
     },
     /// The OBJ reader refused the file, and it is not known where.
     #[error("model `{}` cannot be read as OBJ: {reason}", file.display())]

@@ -1,50 +1,49 @@
 //! Wavefront OBJ: one mesh for each object or group and material, polygons cut into triangles.
 //!
 //! The text is checked line by line and reduced to what is read, so that mistakes carry their line
-//! and tobj meets nothing that it would misread or panic at; tobj makes the meshes. Smoothing
+//! and tobj meets nothing that it would misread or panic at (names are numbers to it); tobj makes the meshes. Smoothing
 //! groups are not interpreted: without `vn` lines a mesh is flat.
 
 mod library;
+mod number;
 mod scan;
 
 use super::mesh::RawMesh;
 use super::polygon::Triangulator;
-use super::{Model, ModelError, ModelMaterial, Placement, Warning};
+use super::{Model, ModelError, Placement, Warning};
 use crate::shot::ModelFiles;
 use ::glam::{DAffine3, DVec3};
-use indexmap::IndexMap;
+use indexmap::{IndexMap, IndexSet};
 use tobj::LoadOptions;
 
 /// Reads the text of an OBJ file and the material libraries it names.
 pub(super) fn read(bytes: Vec<u8>, files: &mut ModelFiles) -> Result<Model, ModelError> {
-    let text = String::from_utf8(bytes)
-        .unwrap_or_else(|error| String::from_utf8_lossy(error.as_bytes()).into_owned());
-    let scan = scan::scan(&text, files)?;
-    drop(text);
+    let scan = scan::scan(&bytes, files)?;
+    drop(bytes);
     let mut warnings = scan.warnings;
-    let library = library::read(&scan.libraries, &scan.materials, files, &mut warnings)?;
+    let (materials, of_used) =
+        library::read(&scan.libraries, &scan.materials, files, &mut warnings)?;
     let options = LoadOptions {
         single_index: true,
         ..LoadOptions::default()
     };
     let (parts, _) = tobj::load_obj_buf(&mut scan.text.as_bytes(), &options, |_| {
-        let named = |m: &ModelMaterial| tobj::Material {
-            name: m.name.clone(),
-            ..Default::default()
-        };
-        let names = library.iter().enumerate().map(|(i, m)| (m.name.clone(), i));
-        Ok((library.iter().map(named).collect(), names.collect()))
+        let numbered = of_used.iter().enumerate();
+        let numbered = numbered.map(|(number, &material)| (number.to_string(), material));
+        Ok((
+            vec![tobj::Material::default(); materials.len()],
+            numbered.collect(),
+        ))
     })
     .map_err(|error| ModelError::Obj {
         file: files.model.clone(),
         reason: error.to_string(),
     })?;
     let mut model = Model {
-        materials: library,
+        materials,
         ..Model::default()
     };
-    for raw in merge(parts, &mut warnings) {
-        let node = raw.name.clone();
+    for (node, raw) in merge(parts, &scan.objects, &mut warnings) {
         if let Some(mesh) = raw.check(&files.model, &mut warnings)? {
             let mesh_index = model.meshes.len();
             model.meshes.push(mesh);
@@ -59,26 +58,39 @@ pub(super) fn read(bytes: Vec<u8>, files: &mut ModelFiles) -> Result<Model, Mode
     Ok(model)
 }
 
+/// An object or group, for messages.
+fn called(name: &str) -> String {
+    match name {
+        "" => "the mesh".to_owned(),
+        _ => format!("object `{name}`"),
+    }
+}
+
 /// One mesh for each name and material, in the order of their first faces.
-fn merge(parts: Vec<tobj::Model>, warnings: &mut Vec<Warning>) -> Vec<RawMesh> {
-    let mut merged: IndexMap<(String, Option<usize>), RawMesh> = IndexMap::new();
+fn merge(
+    parts: Vec<tobj::Model>,
+    objects: &IndexSet<String>,
+    warnings: &mut Vec<Warning>,
+) -> Vec<(String, RawMesh)> {
+    let mut merged: IndexMap<(&str, Option<usize>), RawMesh> = IndexMap::new();
     let mut cutter = Triangulator::default();
     for part in parts {
-        let key = (part.name, part.mesh.material_id);
-        let (name, material) = (key.0.clone(), key.1);
-        let raw = merged.entry(key).or_insert_with(|| {
-            let normals = Some(Vec::new());
-            RawMesh {
-                name,
-                material,
-                normals,
-                ..RawMesh::default()
-            }
+        let number = part.name.parse().unwrap_or_default();
+        let name = objects.get_index(number).map_or("", String::as_str);
+        let material = part.mesh.material_id;
+        let raw = merged.entry((name, material)).or_insert_with(|| RawMesh {
+            name: called(name),
+            material,
+            normals: Some(Vec::new()),
+            ..RawMesh::default()
         });
         append(raw, &part.mesh, &mut cutter);
     }
-    let mut meshes: Vec<RawMesh> = merged.into_values().collect();
-    for raw in &mut meshes {
+    let named = merged
+        .into_iter()
+        .map(|((name, _), raw)| (name.to_owned(), raw));
+    let mut meshes: Vec<_> = named.collect();
+    for (_, raw) in &mut meshes {
         let count = raw.normals.as_ref().map_or(0, Vec::len);
         if count != raw.positions.len() {
             raw.normals = None;

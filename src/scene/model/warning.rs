@@ -56,6 +56,39 @@ pub enum Warning {
     MissingLibrary {
         /// Its file name.
         name: String,
+        /// The file that was perhaps meant.
+        near: Option<String>,
+    },
+    /// A material library named by an absolute path: that of the author's machine.
+    AbsoluteLibrary {
+        /// The path.
+        path: String,
+        /// The name that is looked for beside the model.
+        beside: String,
+    },
+    /// A material of a library that has no name.
+    NamelessMaterial {
+        /// The library and the line.
+        at: String,
+    },
+    /// Faces of an OBJ file that have no area.
+    FewCorners {
+        /// How many.
+        count: usize,
+        /// Line of the first.
+        line: usize,
+    },
+    /// Faces of an OBJ file that name normals or texture coordinates in a file that has none.
+    NamesNone {
+        /// "normal" or "texture coordinate".
+        what: &'static str,
+        /// Line of the first.
+        line: usize,
+    },
+    /// Numbers of a vertex in an OBJ file that are neither position nor color.
+    ExtraNumbers {
+        /// Line of the first.
+        line: usize,
     },
     /// Colors at vertices.
     VertexColors {
@@ -185,9 +218,32 @@ impl fmt::Display for Warning {
                 f,
                 "material `{material}`: faces use it but no material library defines it; it is drawn white unless the shot gives it a material"
             ),
-            Self::MissingLibrary { name } => write!(
+            Self::MissingLibrary { name, near } => {
+                write!(
+                    f,
+                    "material library `{name}` does not exist; its materials are drawn white unless the shot gives them"
+                )?;
+                near.iter()
+                    .try_for_each(|near| write!(f, "; did you mean `{near}`?"))
+            }
+            Self::AbsoluteLibrary { path, beside } => write!(
                 f,
-                "material library `{name}` does not exist; its materials are drawn white unless the shot gives them"
+                "material library `{path}` is an absolute path, which no model may read; `{beside}` beside the model is taken for it"
+            ),
+            Self::NamelessMaterial { at } => {
+                write!(f, "{at}: a material without a name is left out")
+            }
+            Self::FewCorners { count, line } => write!(
+                f,
+                "faces of fewer than 3 corners have no area and are left out: {count}, the first in line {line}"
+            ),
+            Self::NamesNone { what, line } => write!(
+                f,
+                "faces name {what}s, the first in line {line}, but the file has none; they are left out"
+            ),
+            Self::ExtraNumbers { line } => write!(
+                f,
+                "vertices have numbers after x y z that are neither weight nor color, the first in line {line}; they are not read"
             ),
             Self::VertexColors { mesh } => write!(
                 f,

@@ -4,111 +4,182 @@
 //! files and is drawn white. Surfaces of OBJ are seen from both sides.
 
 use super::super::{ModelError, ModelMaterial, Warning};
-use crate::shot::{ModelFiles, Opened};
+use super::number::numbers;
+use crate::shot::{
+    FileError, ModelFiles, Opened, before_comment, each_line, is_utf16, keyword_and_rest,
+};
 use indexmap::{IndexMap, IndexSet};
+use std::collections::HashMap;
 use std::path::Path;
 
 /// White, where nothing says otherwise.
 const WHITE: [f64; 3] = [1.0; 3];
 
-/// The materials that the libraries define, and white ones for those of `used` that none does.
+/// The materials that faces use, white where no library defines them, and which of them each of
+/// `used` is: a name may have a comment behind it.
 pub(super) fn read(
     libraries: &IndexSet<String>,
     used: &IndexSet<String>,
     files: &mut ModelFiles,
     warnings: &mut Vec<Warning>,
-) -> Result<Vec<ModelMaterial>, ModelError> {
-    let mut materials = IndexMap::new();
-    for name in libraries {
-        for (part, bytes) in open(name, files, warnings)? {
-            let text = String::from_utf8_lossy(&bytes);
-            let checked = check(&text, Path::new(&part))?;
-            let (found, _) =
-                tobj::load_mtl_buf(&mut checked.as_bytes()).map_err(|error| ModelError::Obj {
-                    file: part.clone().into(),
-                    reason: error.to_string(),
-                })?;
-            materials.extend(found.into_iter().map(|m| (m.name.clone(), m)));
+) -> Result<(Vec<ModelMaterial>, Vec<usize>), ModelError> {
+    let mut defined = IndexMap::new();
+    for line in libraries {
+        for (name, opened) in open(line, files, warnings)? {
+            // A library goes before those named after it; of its own materials the last holds.
+            for (material, values) in materials(&name, opened, warnings)? {
+                defined.entry(material).or_insert(values);
+            }
         }
     }
-    let mut out = Vec::new();
-    for name in used {
-        let Some(material) = materials.get(name) else {
-            warnings.push(Warning::UndefinedMaterial {
-                material: name.clone(),
-            });
-            let name = name.clone();
-            out.push(ModelMaterial {
-                name,
-                base_color: WHITE,
-                emissive: [0.0; 3],
-                double_sided: true,
-            });
-            continue;
+    let bare = |name| before_comment("usemtl", name);
+    let by_bare_name: HashMap<&str, &tobj::Material> = defined
+        .iter()
+        .rev()
+        .map(|(name, m)| (bare(name), m))
+        .collect();
+    let mut made = IndexMap::new();
+    let mut of_used = Vec::new();
+    for written in used {
+        let (name, material) = match defined.get(written) {
+            Some(material) => (written.as_str(), Some(material)),
+            None => (bare(written), by_bare_name.get(bare(written)).copied()),
         };
-        warn(material, warnings);
-        let plain = ModelMaterial {
-            name: name.clone(),
-            base_color: material.diffuse.unwrap_or(WHITE),
-            emissive: material.emissive.unwrap_or_default(),
-            double_sided: true,
-        };
-        out.push(plain.checked(&files.model, warnings)?);
+        let entry = made.entry(name);
+        of_used.push(entry.index());
+        if let indexmap::map::Entry::Vacant(free) = entry {
+            free.insert(plain(name, material, warnings).checked(&files.model, warnings)?);
+        }
     }
-    Ok(out)
+    Ok((made.into_values().collect(), of_used))
+}
+
+/// What is drawn of a material.
+fn plain(
+    name: &str,
+    material: Option<&tobj::Material>,
+    warnings: &mut Vec<Warning>,
+) -> ModelMaterial {
+    let name = name.to_owned();
+    match material {
+        Some(material) => warn(&name, material, warnings),
+        None => warnings.push(Warning::UndefinedMaterial {
+            material: name.clone(),
+        }),
+    }
+    ModelMaterial {
+        name,
+        base_color: material.and_then(|m| m.diffuse).unwrap_or(WHITE),
+        emissive: material.and_then(|m| m.emissive).unwrap_or_default(),
+        double_sided: true,
+    }
 }
 
 /// The libraries of an `mtllib` line, with their names.
 fn open(
-    name: &str,
+    line: &str,
     files: &mut ModelFiles,
     warnings: &mut Vec<Warning>,
-) -> Result<Vec<(String, Vec<u8>)>, ModelError> {
-    let opened = files.libraries(name)?;
-    if opened.is_empty() {
-        warnings.push(Warning::MissingLibrary {
-            name: name.to_owned(),
-        });
+) -> Result<Vec<(String, Opened)>, ModelError> {
+    let mut opened = Vec::new();
+    for library in files.libraries(line)? {
+        if let Some(beside) = &library.beside {
+            warnings.push(Warning::AbsoluteLibrary {
+                path: library.asked.clone(),
+                beside: beside.clone(),
+            });
+        }
+        match library.found {
+            Some(found) => opened.push(found),
+            None => warnings.push(Warning::MissingLibrary {
+                name: library.beside.unwrap_or(library.asked),
+                near: library.near,
+            }),
+        }
     }
-    let read = |(name, opened): (String, Opened)| Ok((name, opened.bytes()?));
-    opened.into_iter().map(read).collect()
+    Ok(opened)
+}
+
+/// The materials of a library by their names.
+fn materials(
+    name: &str,
+    opened: Opened,
+    warnings: &mut Vec<Warning>,
+) -> Result<IndexMap<String, tobj::Material>, ModelError> {
+    let bytes = opened.bytes()?;
+    let checked = check(&bytes, Path::new(name), warnings)?;
+    let (found, _) =
+        tobj::load_mtl_buf(&mut checked.as_bytes()).map_err(|error| ModelError::Obj {
+            file: name.into(),
+            reason: error.to_string(),
+        })?;
+    Ok(found.into_iter().map(|m| (m.name.clone(), m)).collect())
 }
 
 /// The lines that are read, each of the form that tobj expects.
-fn check(text: &str, file: &Path) -> Result<String, ModelError> {
-    let mut out = String::new();
-    for (index, line) in text.lines().enumerate() {
-        let line = line.trim();
-        let (keyword, rest) = line.split_once(char::is_whitespace).unwrap_or((line, ""));
-        let rest = rest.trim();
-        let wrong = |expected| ModelError::Line {
-            file: file.to_owned(),
-            line: index + 1,
-            found: line.chars().take(60).collect(),
-            expected,
-        };
-        let values: Option<Vec<f64>> = rest.split_whitespace().map(|w| w.parse().ok()).collect();
-        let checked = match (keyword, values.as_deref()) {
-            ("newmtl", _) if rest.is_empty() => return Err(wrong("newmtl and a name")),
-            ("Kd" | "Ke", Some([r, g, b])) => format!("{r} {g} {b}"),
-            ("Kd" | "Ke", Some([v])) => format!("{v} {v} {v}"),
-            ("Kd" | "Ke", _) => return Err(wrong("3 numbers: a linear RGB color")),
-            ("d", Some([v])) => v.to_string(),
-            ("newmtl" | "Tr" | "Pm" | "Pc" | "Ps" | "norm", _) => rest.to_owned(),
-            ("map_Kd" | "map_Ke" | "map_d" | "map_Bump" | "map_bump" | "bump", _)
-                if !rest.is_empty() =>
-            {
-                rest.to_owned()
-            }
-            _ => continue,
-        };
-        out.push_str(&format!("{keyword} {checked}\n"));
+fn check(bytes: &[u8], file: &Path, warnings: &mut Vec<Warning>) -> Result<String, ModelError> {
+    if is_utf16(bytes) {
+        let file = file.to_owned();
+        return Err(ModelError::Utf16 { file });
     }
+    let mut out = String::new();
+    let mut has_name = true;
+    each_line(bytes, |number, line| -> Result<(), ModelError> {
+        let (keyword, rest) = keyword_and_rest(line);
+        let bare = before_comment(keyword, rest);
+        if keyword == "newmtl" {
+            has_name = !bare.is_empty();
+            if !has_name {
+                let at = format!("{}:{number}", file.display());
+                warnings.push(Warning::NamelessMaterial { at });
+            }
+        }
+        if has_name {
+            let checked = value(keyword, rest, bare).map_err(|expected| ModelError::Line {
+                file: file.to_owned(),
+                line: number,
+                found: line.chars().take(60).collect(),
+                expected,
+            })?;
+            if let Some(checked) = checked {
+                out.push_str(&format!("{keyword} {checked}\n"));
+            }
+        }
+        Ok(())
+    })
+    .map_err(|source| FileError::Read {
+        file: file.to_owned(),
+        source,
+    })??;
     Ok(out)
 }
 
-fn warn(material: &tobj::Material, warnings: &mut Vec<Warning>) {
-    let name = || material.name.clone();
+/// What tobj is to read behind a keyword, `None` where the line is not read, or what was expected.
+fn value(keyword: &str, rest: &str, bare: &str) -> Result<Option<String>, &'static str> {
+    let values = || -> Option<Vec<f64>> {
+        let values = numbers(keyword, rest)?.into_iter();
+        Some(values.map(|(_, value)| value).collect())
+    };
+    Ok(match keyword {
+        // A comment may be part of the name: who uses it knows.
+        "newmtl" => Some(rest.to_owned()),
+        "Kd" | "Ke" => match values().as_deref() {
+            Some([r, g, b, ..]) => Some(format!("{r} {g} {b}")),
+            Some([v]) => Some(format!("{v} {v} {v}")),
+            _ => return Err("3 numbers: a linear RGB color"),
+        },
+        "d" | "Tr" | "Pm" | "Pc" | "Ps" => {
+            values().and_then(|values| Some(values.first()?.to_string()))
+        }
+        "map_Kd" | "map_Ke" | "map_d" | "map_Bump" | "map_bump" | "bump" | "norm" => {
+            (!bare.is_empty()).then(|| bare.to_owned())
+        }
+        _ => None,
+    })
+}
+
+fn warn(name: &str, material: &tobj::Material, warnings: &mut Vec<Warning>) {
+    let name = || name.to_owned();
     let parameter = |key: &str| {
         material
             .unknown_param

@@ -1,42 +1,18 @@
-//! The lines of an OBJ file, each checked, and the text reduced to positions, normals, faces, names
-//! and materials.
+//! The lines of an OBJ file, each checked, and the text reduced to positions, normals and faces, and
+//! to objects and materials by number.
 
 use super::super::mesh::is_in_range;
 use super::super::polygon::MAX_CORNERS;
 use super::super::{ModelError, Warning};
-use crate::shot::ModelFiles;
+use super::called;
+use super::number::numbers;
+use crate::shot::{
+    FileError, ModelFiles, OBJ_KEYWORDS, before_comment, each_obj_line, is_utf16, keyword_and_rest,
+};
 use ::glam::DVec3;
 use indexmap::IndexSet;
 use std::fmt::Write;
 use std::path::PathBuf;
-
-/// Keywords of OBJ; a file that begins with something else and has no vertex is none.
-const KEYWORDS: [&str; 24] = [
-    "v",
-    "vt",
-    "vn",
-    "vp",
-    "f",
-    "l",
-    "p",
-    "o",
-    "g",
-    "s",
-    "usemtl",
-    "mtllib",
-    "mg",
-    "lod",
-    "usemap",
-    "maplib",
-    "cstype",
-    "deg",
-    "curv",
-    "curv2",
-    "surf",
-    "shadow_obj",
-    "trace_obj",
-    "call",
-];
 
 /// Longest part of a line that a message repeats.
 const SHOWN: usize = 60;
@@ -48,62 +24,71 @@ pub(super) struct Scan {
     pub(super) text: String,
     /// Material libraries, as `mtllib` lines name them.
     pub(super) libraries: IndexSet<String>,
-    /// Materials that faces use.
+    /// Materials that faces use, as `usemtl` lines name them: what `text` has is their numbers.
     pub(super) materials: IndexSet<String>,
+    /// Names of objects and groups, the first for what has none: `text` has their numbers.
+    pub(super) objects: IndexSet<String>,
     /// What is left out.
     pub(super) warnings: Vec<Warning>,
-    name: String,
+    /// Index in `objects` of the one whose lines are read.
+    object: usize,
     has_colors: bool,
-    positions: i64,
-    coordinates: i64,
-    normals: i64,
-    /// The greatest index met of each kind and its line: a face may come before its vertices.
-    greatest: [(i64, usize); 3],
+    has_extra_numbers: bool,
+    /// Faces of fewer than three corners, and the line of the first.
+    few_corners: (usize, usize),
+    /// How many there are of each of [`KINDS`].
+    counts: [i64; 3],
+    asked: [Asked; 3],
+}
+
+/// What faces ask for of one kind.
+#[derive(Debug, Clone, Copy, Default)]
+struct Asked {
+    /// Line of the first that does, 0 where none does.
+    first: usize,
+    /// The greatest index and its line: a face may come before its vertices.
+    greatest: (i64, usize),
+    /// The first index that lies before all that stood there: line, index, how many stood there.
+    too_low: Option<(usize, i64, i64)>,
 }
 
 /// Checks and reduces the text.
-pub(super) fn scan(text: &str, files: &ModelFiles) -> Result<Scan, ModelError> {
+pub(super) fn scan(bytes: &[u8], files: &ModelFiles) -> Result<Scan, ModelError> {
+    let file = || files.model.clone();
+    if is_utf16(bytes) {
+        return Err(ModelError::Utf16 { file: file() });
+    }
     let mut scan = Scan {
-        text: String::from("mtllib all\n"),
+        text: String::from("mtllib all\no 0\n"),
+        objects: IndexSet::from([String::new()]),
         ..Scan::default()
     };
     let mut stranger = None;
-    let mut joined = String::new();
-    for (index, line) in text.lines().enumerate() {
-        let line = line.trim();
-        if let Some(part) = line.strip_suffix('\\') {
-            joined.push_str(part);
-            joined.push(' ');
-            continue;
-        }
-        let whole = if joined.is_empty() {
-            line
-        } else {
-            &format!("{joined}{line}")
-        };
-        let result = scan.line(whole, index + 1, &mut stranger);
-        result.map_err(|fault| fault.at(files.model.clone(), index + 1, whole))?;
-        joined.clear();
-    }
-    if let (Some((line, found)), 0) = (stranger, scan.positions) {
+    each_obj_line(bytes, |number, line| {
+        let result = scan.line(line, number, &mut stranger);
+        result.map_err(|fault| fault.at(file(), number, line))
+    })
+    .map_err(|source| FileError::Read {
+        file: file(),
+        source,
+    })??;
+    if let (Some((line, found)), [0, ..]) = (stranger, scan.counts) {
         return Err(ModelError::NotObj {
-            file: files.model.clone(),
+            file: file(),
             line,
             found,
         });
     }
-    scan.check_greatest(files)?;
+    scan.check_asked(files)?;
+    if let (count @ 1.., line) = scan.few_corners {
+        scan.warn(Warning::FewCorners { count, line });
+    }
     Ok(scan)
 }
 
 /// A mistake in a line, its place not yet named.
 enum Fault {
     Expected(&'static str),
-    Index {
-        what: &'static str,
-        index: i64,
-        count: i64,
-    },
     Corners(u64),
 }
 
@@ -115,13 +100,6 @@ impl Fault {
                 line,
                 found: text.chars().take(SHOWN).collect(),
                 expected,
-            },
-            Self::Index { what, index, count } => ModelError::ObjIndex {
-                file,
-                line,
-                what,
-                index,
-                count,
             },
             Self::Corners(count) => ModelError::TooMany {
                 file,
@@ -140,38 +118,38 @@ impl Scan {
         number: usize,
         stranger: &mut Option<(usize, String)>,
     ) -> Result<(), Fault> {
-        let (keyword, rest) = line.split_once(char::is_whitespace).unwrap_or((line, ""));
-        let rest = rest.trim();
+        let (keyword, rest) = keyword_and_rest(line);
         match keyword {
-            "v" => self.position(rest)?,
+            "v" => self.position(rest, number)?,
             "vn" => {
-                self.normals += 1;
-                numbers(rest)
-                    .filter(|v| v.len() == 3)
-                    .ok_or(Fault::Expected("vn and 3 numbers"))?;
-                self.keep("vn ", rest);
+                let values = numbers("vn", rest).filter(|values| values.len() >= 3);
+                let values = values.ok_or(Fault::Expected("vn and 3 numbers"))?;
+                self.counts[2] += 1;
+                self.keep("vn", &values[..3]);
             }
-            "vt" => self.coordinates += 1,
-            "f" => self.face(rest, number)?,
+            "vt" => self.counts[1] += 1,
+            "f" => self.face(before_comment("f", rest), number)?,
             "o" | "g" => {
-                rest.clone_into(&mut self.name);
-                self.keep("o ", rest);
+                let name = before_comment(keyword, rest).to_owned();
+                self.object = self.objects.insert_full(name).0;
+                self.text.push_str(&format!("o {}\n", self.object));
             }
-            "usemtl" if rest.is_empty() => return Err(Fault::Expected("usemtl and a name")),
+            "usemtl" if before_comment("usemtl", rest).is_empty() => {
+                self.text.push_str("usemtl none\n");
+            }
             "usemtl" => {
-                self.materials.insert(rest.to_owned());
-                self.keep("usemtl ", rest);
+                let (material, _) = self.materials.insert_full(rest.to_owned());
+                self.text.push_str(&format!("usemtl {material}\n"));
             }
             "mtllib" => drop(self.libraries.insert(rest.to_owned())),
-            "l" | "p" => self.warn(Warning::PointsOrLines {
-                mesh: format!("object `{}`", self.name),
-            }),
+            "l" | "p" => self.warn(Warning::PointsOrLines { mesh: self.mesh() }),
             "curv" | "curv2" | "surf" => self.warn(Warning::Freeform {
                 keyword: keyword.to_owned(),
             }),
             _ => {
-                let is_known =
-                    keyword.is_empty() || keyword.starts_with('#') || KEYWORDS.contains(&keyword);
+                let is_known = keyword.is_empty()
+                    || keyword.starts_with('#')
+                    || OBJ_KEYWORDS.contains(&keyword);
                 if !is_known && stranger.is_none() {
                     let start: String = keyword.chars().take(12).collect();
                     *stranger = Some((number, format!("{start:?}")));
@@ -181,36 +159,37 @@ impl Scan {
         Ok(())
     }
 
-    fn position(&mut self, rest: &str) -> Result<(), Fault> {
+    fn position(&mut self, rest: &str, number: usize) -> Result<(), Fault> {
         const EXPECTED: Fault =
             Fault::Expected("v and 3 finite numbers, perhaps a weight other than 0 or a color");
-        let values = numbers(rest).ok_or(EXPECTED)?;
-        let w = if values.len() == 4 { values[3] } else { 1.0 };
-        let has_color = values.len() == 6;
-        let is_point = |v: &[f64]| is_in_range(DVec3::new(v[0], v[1], v[2]) / w);
-        if !(has_color || [3, 4].contains(&values.len())) || w == 0.0 || !is_point(&values) {
+        let values = numbers("v", rest).ok_or(EXPECTED)?;
+        let [(_, x), (_, y), (_, z), more @ ..] = values.as_slice() else {
+            return Err(EXPECTED);
+        };
+        let w = if let [(_, w)] = more { *w } else { 1.0 };
+        if w == 0.0 || !is_in_range(DVec3::new(*x, *y, *z) / w) {
             return Err(EXPECTED);
         }
-        self.positions += 1;
-        if has_color && !self.has_colors {
-            self.has_colors = true;
-            self.warn(Warning::VertexColors {
-                mesh: format!("object `{}`", self.name),
-            });
-        }
-        if has_color {
-            let end = rest
-                .split_whitespace()
-                .nth(3)
-                .map_or(rest.len(), |w| offset(rest, w));
-            self.keep("v ", rest[..end].trim_end());
-        } else {
-            self.keep("v ", rest);
+        self.counts[0] += 1;
+        let kept = if more.len() == 1 { 4 } else { 3 };
+        self.keep("v", &values[..kept]);
+        match more.len() {
+            0 | 1 => {}
+            3 | 4 if !self.has_colors => {
+                self.has_colors = true;
+                self.warn(Warning::VertexColors { mesh: self.mesh() });
+            }
+            2 | 5.. if !self.has_extra_numbers => {
+                self.has_extra_numbers = true;
+                self.warn(Warning::ExtraNumbers { line: number });
+            }
+            _ => {}
         }
         Ok(())
     }
 
     fn face(&mut self, rest: &str, number: usize) -> Result<(), Fault> {
+        let start = self.text.len();
         self.text.push('f');
         let mut corners = 0;
         for word in rest.split_whitespace() {
@@ -224,7 +203,12 @@ impl Scan {
         }
         self.text.push('\n');
         match corners {
-            0..3 => Err(Fault::Expected("f and at least 3 corners")),
+            0..3 => {
+                self.text.truncate(start);
+                let (count, first) = self.few_corners;
+                self.few_corners = (count + 1, if count == 0 { number } else { first });
+                Ok(())
+            }
             3..=MAX_CORNERS => Ok(()),
             _ => Err(Fault::Corners(corners as u64)),
         }
@@ -234,54 +218,79 @@ impl Scan {
     fn corner(&mut self, word: &str, number: usize) -> Result<[i64; 3], Fault> {
         const EXPECTED: Fault = Fault::Expected("corners such as 1, 1/2, 1//3 or 1/2/3");
         let mut indices = [0; 3];
-        let counts = [self.positions, self.coordinates, self.normals];
         for (kind, part) in word.split('/').enumerate() {
             let slot = indices.get_mut(kind).ok_or(EXPECTED)?;
             if part.is_empty() && kind > 0 {
                 continue;
             }
             let index: i64 = part.parse().map_err(|_| EXPECTED)?;
-            let count = counts[kind];
+            let count = self.counts[kind];
             let from_start = if index < 0 {
                 index.saturating_add(count + 1)
             } else {
                 index
             };
+            let asked = &mut self.asked[kind];
+            if asked.first == 0 {
+                asked.first = number;
+            }
             if from_start < 1 {
-                return Err(Fault::Index {
-                    what: KINDS[kind],
-                    index,
-                    count,
-                });
+                asked.too_low = asked.too_low.or(Some((number, index, count)));
+                continue;
             }
             *slot = from_start;
-            if from_start > self.greatest[kind].0 {
-                self.greatest[kind] = (from_start, number);
+            if from_start > asked.greatest.0 {
+                asked.greatest = (from_start, number);
             }
         }
         Ok(indices)
     }
 
-    fn check_greatest(&self, files: &ModelFiles) -> Result<(), ModelError> {
-        let counts = [self.positions, self.coordinates, self.normals];
-        for (kind, (&(index, line), count)) in self.greatest.iter().zip(counts).enumerate() {
-            if index > count {
-                let file = files.model.clone();
-                return Err(ModelError::ObjIndex {
+    /// Refuses indices of what is not there, unless nothing of that kind is and the shape does not
+    /// need it: a mesh without normals is flat.
+    fn check_asked(&mut self, files: &ModelFiles) -> Result<(), ModelError> {
+        for (kind, asked) in self.asked.into_iter().enumerate() {
+            let (what, count) = (KINDS[kind], self.counts[kind]);
+            if asked.first > 0 && count == 0 && kind > 0 {
+                self.warn(Warning::NamesNone {
+                    what,
+                    line: asked.first,
+                });
+                continue;
+            }
+            let (greatest, line) = asked.greatest;
+            let too_great = (greatest > count).then_some((line, greatest, count));
+            let Some((line, index, count)) = asked.too_low.or(too_great) else {
+                continue;
+            };
+            let file = files.model.clone();
+            return Err(match index {
+                0 => ModelError::ObjIndexZero { file, line, what },
+                _ => ModelError::ObjIndex {
                     file,
                     line,
-                    what: KINDS[kind],
+                    what,
                     index,
                     count,
-                });
-            }
+                },
+            });
         }
         Ok(())
     }
 
-    fn keep(&mut self, keyword: &str, rest: &str) {
+    /// The object whose lines are read, for messages.
+    fn mesh(&self) -> String {
+        called(&self.objects[self.object])
+    }
+
+    /// Writes numbers for tobj, which does not know all spellings of what is none.
+    fn keep(&mut self, keyword: &str, values: &[(&str, f64)]) {
         self.text.push_str(keyword);
-        self.text.push_str(rest);
+        for (word, value) in values {
+            self.text.push(' ');
+            self.text
+                .push_str(if value.is_finite() { word } else { "nan" });
+        }
         self.text.push('\n');
     }
 
@@ -294,14 +303,3 @@ impl Scan {
 
 /// What the three parts of a corner refer to.
 const KINDS: [&str; 3] = ["position", "texture coordinate", "normal"];
-
-fn numbers(text: &str) -> Option<Vec<f64>> {
-    text.split_whitespace()
-        .map(|word| word.parse().ok())
-        .collect()
-}
-
-/// Where in `text` its part `word` begins.
-fn offset(text: &str, word: &str) -> usize {
-    word.as_ptr() as usize - text.as_ptr() as usize
-}
