@@ -16,6 +16,7 @@ mod body;
 mod camera;
 mod check;
 mod diagnostics;
+mod file_names;
 mod later;
 mod light;
 mod load;
@@ -49,14 +50,15 @@ pub use load::{MAX_BYTES, load, parse};
 pub use mistake::{Mistake, Mistakes, Places};
 pub use model_files::{FileError, MODEL_BYTES, ModelFiles, Opened};
 pub use schema::schema;
-pub use sequence::{Corner, Inset, InsetPixel, PixelName, Sequence, Sheet, Video};
+pub use sequence::{Corner, Inset, InsetPixel, MOST_COLUMNS, PixelName, Sequence, Sheet, Video};
 pub use settings::{
     AutoExposure, Beaming, Clock, Depth, Effects, Exposure, Filter, Format, Image, LARGEST_SIDE,
-    Layer, Output, Sensor, SensorColor, Splice, SpliceEffects, Switch, Tone,
+    Layer, MOST_BOUNCES, Output, Sensor, SensorColor, Splice, SpliceEffects, Switch, Tone,
 };
 pub use sky::{
     Background, MOST_STARS, RandomStars, STAR_KELVIN, STAR_MAGNITUDE, StarCatalogue, Stars,
 };
+pub use still::Moving;
 pub use track::{Blend, Ease, Track};
 
 /// A restframe shot: what is in the scene, how it moves, who looks at it and what is written.

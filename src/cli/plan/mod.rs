@@ -1,17 +1,30 @@
 //! `restframe plan`: what each frame calls for and why, which frames share a trace, and what they
 //! will take.
+//!
+//! A first look at all frames tells which share a trace, and what is there; then each is planned and
+//! told before the next, so that of a million frames some bytes each are held, and a reader need not
+//! wait for the last.
 
+mod words;
+
+use super::answer::{Answer, Reader};
 use super::render::check_scale;
-use super::{Failed, PlanArguments, failed, mistaken, misused, print, print_json};
-use crate::plan::{self, Called};
+use super::{Failed, PlanArguments, failed, mistaken, misused, print};
+use crate::plan::{self, Called, Trace};
 use crate::queue::{
     Costs, Estimate, Reel, ReelError, Request, Status, effect_names, frame_bytes, frame_effects,
     memory_bytes, most_together, options, refuse_shifted_numbers,
 };
 use crate::render::motion_mistake;
 use crate::shot::{self, Beaming, Shot};
-use indexmap::IndexMap;
+use indexmap::{IndexMap, IndexSet};
+use rayon::prelude::*;
 use serde_json::{Value, json};
+use std::collections::{BTreeMap, HashMap};
+use words::{head, line, sentences, word};
+
+/// Frames that are planned between two looks at whether somebody reads.
+const AT_ONCE: usize = 4096;
 
 /// One frame.
 struct Planned {
@@ -19,15 +32,38 @@ struct Planned {
     called: Called,
     status: Status,
     /// Number of its trace, in the order of their first frames.
-    trace: usize,
+    trace: u32,
     /// What rendering it would take on its own.
     estimate: Estimate,
     /// What it adds to the work that is left: 0 if it is fresh, of a shared trace its part.
     seconds: f64,
 }
 
+/// What is known of all frames at a first look.
+struct Plan<'a> {
+    reel: &'a Reel,
+    costs: Costs,
+    frames: Vec<u32>,
+    /// The number of each frame's trace.
+    traces: Vec<u32>,
+    /// How many frames each trace has, and how many of them have to be rendered.
+    sharing: Vec<[u32; 2]>,
+    /// Of the frames of which something is there.
+    there: BTreeMap<u32, Status>,
+}
+
+/// Sums over the frames planned so far.
+#[derive(Default)]
+struct Sums {
+    fresh: usize,
+    stale: usize,
+    seconds: f64,
+    guessed: usize,
+}
+
 /// All of it together.
 struct Totals {
+    frames: usize,
     traces: usize,
     fresh: usize,
     stale: usize,
@@ -48,24 +84,22 @@ pub(super) fn run(arguments: &PlanArguments) -> Result<(), Failed> {
         ReelError::Mistakes(mistakes) => mistaken(&mistakes),
         ReelError::Folder { .. } => failed(&error.to_string()),
     })?;
-    let planned = planned(&reel, &chosen)?;
-    let most = most_together(&options(&shot, &request));
-    let totals = totals(&reel, &planned, most);
+    check_motion(&shot, &chosen)?;
+    let plan = Plan::new(&reel, chosen);
     if arguments.json {
-        return print_json(&as_json(&planned, &totals));
+        plan.tell_json(&request)
+    } else {
+        plan.tell(&request)
     }
-    print(&head(&reel, &planned, &totals))?;
-    let mut said = Vec::new();
-    for run in runs(&planned) {
-        print(&line(run))?;
-        for sentence in sentences(&run[0]) {
-            if !said.contains(&sentence) {
-                print(&format!("    {sentence}"))?;
-                said.push(sentence);
-            }
-        }
-    }
-    Ok(())
+}
+
+/// Refuses velocities that are none between two keys, before anything is told.
+fn check_motion(shot: &Shot, frames: &[u32]) -> Result<(), Failed> {
+    let wrong = frames.par_iter().find_map_first(|frame| {
+        let mut names = shot.worldline.keys();
+        names.find_map(|name| plan::celerity(shot, name, *frame).err())
+    });
+    wrong.map_or(Ok(()), |error| Err(mistaken(&motion_mistake(shot, &error))))
 }
 
 /// The frames that are asked for.
@@ -80,73 +114,216 @@ fn chosen(shot: &Shot, request: &Request) -> Result<Vec<u32>, Failed> {
     Ok(chosen)
 }
 
-fn planned(reel: &Reel, frames: &[u32]) -> Result<Vec<Planned>, Failed> {
-    let shot = reel.shot();
-    let costs = Costs::new(reel);
-    // The frames that have to be rendered, by trace.
-    let mut traces: IndexMap<String, usize> = IndexMap::new();
-    let mut planned = Vec::new();
-    for &frame in frames {
+impl<'a> Plan<'a> {
+    /// Looks at which frames share a trace, and what is there of them.
+    fn new(reel: &'a Reel, frames: Vec<u32>) -> Self {
+        let there: Vec<u32> = {
+            let there = reel.there();
+            let chosen = frames.iter().copied();
+            chosen.filter(|frame| there.contains(frame)).collect()
+        };
+        let statuses = reel.statuses(&there);
+        let there: BTreeMap<u32, Status> = there.into_iter().zip(statuses).collect();
+        let mut numbers: HashMap<Trace, u32> = HashMap::new();
+        let mut sharing: Vec<[u32; 2]> = Vec::new();
+        let mut traces = Vec::with_capacity(frames.len());
+        for (frame, trace) in frames.iter().zip(reel.keys.traces_of(&frames)) {
+            let number = *numbers.entry(trace).or_insert(sharing.len() as u32);
+            if number as usize == sharing.len() {
+                sharing.push([0; 2]);
+            }
+            let [all, left] = &mut sharing[number as usize];
+            *all += 1;
+            *left += u32::from(there.get(frame) != Some(&Status::Fresh));
+            traces.push(number);
+        }
+        Self {
+            costs: Costs::new(reel),
+            reel,
+            frames,
+            traces,
+            sharing,
+            there,
+        }
+    }
+
+    /// Plans the frame at a place of the list.
+    fn frame(&self, place: usize) -> Result<Planned, Failed> {
+        let (reel, shot, frame) = (self.reel, self.reel.shot(), self.frames[place]);
         let called = plan::called(shot, frame, &shot.effects)
             .map_err(|error| mistaken(&motion_mistake(shot, &error)))?;
-        let key = reel.keys.frame(frame);
-        let status = reel.status(frame, &key);
-        let entry = traces.entry(key.trace);
-        let trace = entry.index();
-        *entry.or_insert(0) += usize::from(status != Status::Fresh);
-        planned.push(Planned {
+        let effects = if shot.splice.is_empty() {
+            effect_names(&called)
+        } else {
+            frame_effects(shot, frame)
+        };
+        let estimate = self.costs.estimate(&effects, reel.keys.picture());
+        let status = self.there.get(&frame).unwrap_or(&Status::Missing).clone();
+        let trace = self.traces[place];
+        let [_, left] = self.sharing[trace as usize];
+        let seconds = match status {
+            Status::Fresh => 0.0,
+            _ => estimate.trace / f64::from(left) + estimate.shade,
+        };
+        Ok(Planned {
             frame,
-            estimate: costs.estimate(&frame_effects(shot, frame), reel.keys.picture()),
             called,
             status,
             trace,
-            seconds: 0.0,
-        });
+            estimate,
+            seconds,
+        })
     }
-    for frame in planned.iter_mut().filter(|p| p.status != Status::Fresh) {
-        let sharing = traces[frame.trace] as f64;
-        frame.seconds = frame.estimate.trace / sharing + frame.estimate.shade;
+
+    /// Plans all frames in order, some at once on all threads, and hands them on until nobody wants
+    /// more.
+    fn each<T: Send>(
+        &self,
+        made: impl Fn(&Planned) -> T + Sync,
+        mut told: impl FnMut(Planned, T) -> Result<Reader, Failed>,
+    ) -> Result<(Reader, Sums), Failed> {
+        let mut sums = Sums::default();
+        let places: Vec<usize> = (0..self.frames.len()).collect();
+        for some in places.chunks(AT_ONCE) {
+            let planned = some.par_iter().map(|place| {
+                let planned = self.frame(*place)?;
+                let made = made(&planned);
+                Ok((planned, made))
+            });
+            for planned in planned.collect::<Vec<Result<_, Failed>>>() {
+                let (planned, made) = planned?;
+                sums.add(&planned);
+                if told(planned, made)? == Reader::Gone {
+                    return Ok((Reader::Gone, sums));
+                }
+            }
+        }
+        Ok((Reader::There, sums))
     }
-    Ok(planned)
+
+    /// Answers for programs: the contract's object, a frame a line.
+    fn tell_json(&self, request: &Request) -> Result<(), Failed> {
+        let mut answer = Answer::new();
+        let mut before = "{\"frames\": [\n";
+        let told = self.each(
+            |planned| frame_json(planned).to_string(),
+            |_, line| {
+                let line = format!("{}{line}", std::mem::replace(&mut before, ",\n"));
+                answer.write(&line)
+            },
+        );
+        if let (Reader::There, sums) = told? {
+            let totals = self.totals(&sums, request);
+            answer.write(&format!("\n],\n\"totals\": {}}}\n", totals.json()))?;
+        }
+        answer.end()
+    }
+
+    /// Answers for people: of frames in a row of which the same is to be said one line.
+    fn tell(&self, request: &Request) -> Result<(), Failed> {
+        let mut runs: Vec<Run> = Vec::new();
+        let (_, sums) = self.each(
+            |_| (),
+            |planned, ()| {
+                match runs.last_mut() {
+                    Some(run) if run.takes(&planned) => run.last = [planned.frame, planned.trace],
+                    _ => runs.push(Run::of(planned)),
+                }
+                Ok(Reader::There)
+            },
+        )?;
+        print(&head(self.reel, &self.totals(&sums, request)))?;
+        let mut said = IndexSet::new();
+        for run in &runs {
+            print(&line(run))?;
+            for sentence in sentences(&run.first) {
+                if said.insert(sentence.clone()) {
+                    print(&format!("    {sentence}"))?;
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// All together, where at most so many frames of one trace are in work at once as memory holds.
+    fn totals(&self, sums: &Sums, request: &Request) -> Totals {
+        let reel = self.reel;
+        let most = most_together(&options(reel.shot(), request));
+        let largest = self.sharing.iter().map(|[all, _]| *all as usize).max();
+        let left = self.frames.len() - sums.fresh;
+        Totals {
+            frames: self.frames.len(),
+            traces: self.sharing.len(),
+            fresh: sums.fresh,
+            stale: sums.stale,
+            missing: left - sums.stale,
+            seconds: sums.seconds,
+            measured: sums.guessed == 0,
+            memory_bytes: memory_bytes(
+                reel,
+                largest.unwrap_or(1).min(most),
+                rayon::current_num_threads(),
+            ),
+            disk_bytes: frame_bytes(reel).saturating_mul(left as u64),
+        }
+    }
 }
 
-/// Sums, where at most so many frames of one trace are in work at once.
-fn totals(reel: &Reel, planned: &[Planned], most: usize) -> Totals {
-    let count = |is: fn(&Status) -> bool| planned.iter().filter(|p| is(&p.status)).count();
-    let fresh = count(|status| *status == Status::Fresh);
-    let mut sharing: IndexMap<usize, usize> = IndexMap::new();
-    for frame in planned {
-        *sharing.entry(frame.trace).or_default() += 1;
-    }
-    let together = sharing.values().copied().max().unwrap_or(1).min(most);
-    Totals {
-        traces: sharing.len(),
-        fresh,
-        stale: count(|status| matches!(status, Status::Stale { .. })),
-        missing: count(|status| *status == Status::Missing),
-        seconds: planned.iter().map(|p| p.seconds).sum(),
-        measured: planned.iter().all(|p| p.estimate.measured),
-        memory_bytes: memory_bytes(reel, together, rayon::current_num_threads()),
-        disk_bytes: frame_bytes(reel).saturating_mul((planned.len() - fresh) as u64),
+impl Sums {
+    fn add(&mut self, planned: &Planned) {
+        match planned.status {
+            Status::Fresh => self.fresh += 1,
+            Status::Stale { .. } => self.stale += 1,
+            Status::Missing => {}
+        }
+        self.seconds += planned.seconds;
+        self.guessed += usize::from(!planned.estimate.measured);
     }
 }
 
-fn as_json(planned: &[Planned], totals: &Totals) -> Value {
-    let frames: Vec<Value> = planned.iter().map(frame_json).collect();
-    json!({
-        "frames": frames,
-        "totals": {
-            "frames": planned.len(),
-            "traces": totals.traces,
-            "fresh": totals.fresh,
-            "stale": totals.stale,
-            "missing": totals.missing,
-            "seconds": totals.seconds,
-            "measured": totals.measured,
-            "memory_bytes": totals.memory_bytes,
-            "disk_bytes": totals.disk_bytes,
-        },
-    })
+impl Totals {
+    fn json(&self) -> Value {
+        json!({
+            "frames": self.frames,
+            "traces": self.traces,
+            "fresh": self.fresh,
+            "stale": self.stale,
+            "missing": self.missing,
+            "seconds": self.seconds,
+            "measured": self.measured,
+            "memory_bytes": self.memory_bytes,
+            "disk_bytes": self.disk_bytes,
+        })
+    }
+}
+
+/// Frames one after the other of which the same is to be said, each with the trace of all or with
+/// one of its own.
+struct Run {
+    first: Planned,
+    /// The last one's number, and that of its trace.
+    last: [u32; 2],
+}
+
+impl Run {
+    fn of(first: Planned) -> Self {
+        let last = [first.frame, first.trace];
+        Self { first, last }
+    }
+
+    /// Whether the next frame goes with it: from the second on, its trace is the same or the next, as
+    /// it was from the first to the second.
+    fn takes(&self, next: &Planned) -> bool {
+        let [frame, trace] = self.last;
+        let (first, length) = (&self.first, frame - self.first.frame);
+        let step = next.trace.wrapping_sub(trace);
+        let same_step = match length {
+            0 => step <= 1,
+            _ => step == u32::from(trace != first.trace),
+        };
+        let effects = effect_names(&first.called) == effect_names(&next.called);
+        next.frame == frame + 1 && same_step && first.status == next.status && effects
+    }
 }
 
 fn frame_json(planned: &Planned) -> Value {
@@ -173,120 +350,4 @@ fn frame_json(planned: &Planned) -> Value {
         frame["stale_because"] = json!(because);
     }
     frame
-}
-
-fn word(status: &Status) -> &'static str {
-    match status {
-        Status::Fresh => "fresh",
-        Status::Missing => "missing",
-        Status::Stale { .. } => "stale",
-    }
-}
-
-/// What there is to do, in a few lines.
-fn head(reel: &Reel, planned: &[Planned], totals: &Totals) -> String {
-    let picture = reel.keys.picture();
-    let [width, height] = picture.size;
-    let left = planned.len() - totals.fresh;
-    let basis = match (left, totals.measured) {
-        (0, _) => "",
-        (_, true) => ", as frames took that were rendered here",
-        (_, false) => ", a guess: nothing like it was rendered here yet",
-    };
-    format!(
-        "{}: {}, {width} x {height} pixels, {}, {}\n{} fresh, {} stale, {} missing: about {}{basis}\nabout {} of memory, {} of disk",
-        reel.shot().path.display(),
-        counted(planned.len(), "frame"),
-        counted(picture.samples as usize, "sample"),
-        counted(totals.traces, "trace"),
-        totals.fresh,
-        totals.stale,
-        totals.missing,
-        duration(totals.seconds),
-        size(totals.memory_bytes),
-        size(totals.disk_bytes),
-    )
-}
-
-/// Frames one after the other of which the same is to be said, each with the trace of all or with
-/// one of its own.
-fn runs(planned: &[Planned]) -> impl Iterator<Item = &[Planned]> {
-    let alike = |a: &Planned, b: &Planned| {
-        let effects = effect_names(&a.called) == effect_names(&b.called);
-        b.frame == a.frame + 1 && a.status == b.status && effects
-    };
-    let mut rest = planned;
-    std::iter::from_fn(move || {
-        let first = rest.first()?;
-        let step = rest
-            .get(1)
-            .map_or(0, |next| next.trace.wrapping_sub(first.trace));
-        let goes_on = |pair: &[Planned]| {
-            let [a, b] = pair else { return false };
-            step <= 1 && b.trace == a.trace + step && alike(a, b)
-        };
-        let length = 1 + rest.windows(2).take_while(|pair| goes_on(pair)).count();
-        let (run, after) = rest.split_at(length);
-        rest = after;
-        Some(run)
-    })
-}
-
-fn line(run: &[Planned]) -> String {
-    let (first, last) = (&run[0], &run[run.len() - 1]);
-    let effects = effect_names(&first.called);
-    let effects = match effects.as_slice() {
-        [] => "no effects".to_owned(),
-        names => names.join(", "),
-    };
-    let status = match &first.status {
-        Status::Stale { because } => format!("stale because {because}"),
-        status => word(status).to_owned(),
-    };
-    let frames = span("frame", first.frame as usize, last.frame as usize);
-    let traces = span("trace", first.trace, last.trace);
-    format!("{frames}  {status}  {effects}  {traces}")
-}
-
-/// Why effects are called for, those of one reason together.
-fn sentences(planned: &Planned) -> Vec<String> {
-    let names = effect_names(&planned.called);
-    let mut effects: IndexMap<&str, Vec<&str>> = IndexMap::new();
-    for reason in &planned.called.because {
-        if names.iter().any(|name| name == reason.effect) {
-            effects.entry(&reason.why).or_default().push(reason.effect);
-        }
-    }
-    let sentence = |(why, effects): (&str, Vec<&str>)| format!("{}: {why}", effects.join(", "));
-    effects.into_iter().map(sentence).collect()
-}
-
-fn span(what: &str, first: usize, last: usize) -> String {
-    if first == last {
-        format!("{what} {first}")
-    } else {
-        format!("{what}s {first}-{last}")
-    }
-}
-
-fn counted(count: usize, what: &str) -> String {
-    let s = if count == 1 { "" } else { "s" };
-    format!("{count} {what}{s}")
-}
-
-fn duration(seconds: f64) -> String {
-    match seconds {
-        s if s < 99.5 => format!("{s:.0} s"),
-        s if s < 99.5 * 60.0 => format!("{:.0} min", s / 60.0),
-        s => format!("{:.1} h", s / 3600.0),
-    }
-}
-
-fn size(bytes: u64) -> String {
-    let mib = bytes as f64 / f64::from(1 << 20);
-    if mib < 1000.0 {
-        format!("{mib:.0} MiB")
-    } else {
-        format!("{:.1} GiB", mib / 1024.0)
-    }
 }
