@@ -10,9 +10,9 @@
 /// Largest share of a picture's light that is left out without a word.
 pub const SILENT: f64 = 0.005;
 
-/// Most that a ray's light is multiplied by to have what it lacks: where a tenth or less of what
+/// Most that a ray's light is multiplied by to have what it lacks: where nearly nothing of what
 /// arrives was followed, it tells little of the rest.
-const MOST: f64 = 10.0;
+const MOST: f64 = 1000.0;
 
 /// Sums over the rays of a picture.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]

@@ -78,6 +78,11 @@ impl Section {
     }
 }
 
+/// A value as JSON.
+fn text(value: &impl serde::Serialize) -> String {
+    serde_json::to_string(value).expect("all keys of a shot are text")
+}
+
 fn splice(splice: &Splice) -> Value {
     let Splice { rows, effects } = splice;
     let SpliceEffects {
@@ -139,17 +144,13 @@ impl Traced<'_> {
                 json!([still.image.filter, exr.then_some(&still.output.layers)])
             }
             Section::Clock => json!([time, light_speed]),
-            Section::Camera => json!(still.camera),
-            Section::Worldlines => json!(still.worldline.iter().collect::<Vec<_>>()),
+            Section::Camera => return text(&still.camera),
+            Section::Worldlines => return text(&still.worldline.iter().collect::<Vec<_>>()),
             Section::Models => still.model.iter().map(|m| self.model(m)).collect(),
             Section::Materials => {
                 let materials = still.material.iter();
-                let material = |(name, material)| (name, self.material(material));
-                json!(
-                    materials
-                        .map(material)
-                        .collect::<BTreeMap<&String, Value>>()
-                )
+                let materials = materials.map(|(name, material)| (name, self.material(material)));
+                json!(materials.collect::<BTreeMap<&String, Value>>())
             }
             Section::Lamps => still.light.iter().filter_map(|l| self.lamp(l)).collect(),
             Section::Sky => self.sky(&still.background),

@@ -45,6 +45,7 @@ pub struct Probe {
     pub cut: f64,
     /// `effects.bounces` with which less than 0.5 % would be cut; None where that is so already, and
     /// where it is too faint for any number of them.
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub enough_bounces: Option<u32>,
     /// The part of `radiance` that surfaces reflect or emit cold, and the background.
     pub surface: Vec<f64>,

@@ -96,18 +96,18 @@ fn cut_light(member: Member<'_>, stage: &Stage, film: &Film) -> Option<String> {
         return None;
     }
     let enough = enough_bounces(member, stage, [film.width, film.height], &film.left_out);
-    let (shot, silent) = (member.shot, percent(SILENT));
     let what_would_do = match enough {
         Ok(Enough::Bounces(bounces)) => {
+            let silent = percent(SILENT);
             format!("effects.bounces = {bounces} would leave out less than {silent}")
         }
         _ => format!(
-            "it is too faint for more effects.bounces to find: an accuracy.cutoff below {} would leave out less",
-            shot.accuracy.cutoff
+            "no number of effects.bounces would do, as it is too faint for accuracy.cutoff = {} or goes on for ever",
+            member.shot.accuracy.cutoff
         ),
     };
     Some(format!(
-        "about {} of its light is left out, being too deep in mirrors and glass: {what_would_do}",
+        "about {} of its light is left out, too deep in mirrors and glass: {what_would_do}",
         percent(share)
     ))
 }

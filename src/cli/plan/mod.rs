@@ -10,15 +10,16 @@ mod words;
 use super::answer::{Answer, Reader};
 use super::render::check_scale;
 use super::{Failed, PlanArguments, failed, mistaken, misused, print};
-use crate::plan::{self, Called, Trace};
+use crate::plan::{self, Called, Reason, Trace};
 use crate::queue::{
     Costs, Estimate, Reel, ReelError, Request, Status, effect_names, frame_bytes, frame_effects,
     memory_bytes, most_together, options, refuse_shifted_numbers,
 };
 use crate::render::motion_mistake;
 use crate::shot::{self, Beaming, Shot};
-use indexmap::{IndexMap, IndexSet};
+use indexmap::IndexSet;
 use rayon::prelude::*;
+use serde::{Serialize, Serializer};
 use serde_json::{Value, json};
 use std::collections::{BTreeMap, HashMap};
 use words::{head, line, sentences, word};
@@ -206,7 +207,7 @@ impl<'a> Plan<'a> {
         let mut answer = Answer::new();
         let mut before = "{\"frames\": [\n";
         let told = self.each(
-            |planned| frame_json(planned).to_string(),
+            |planned| Frame::of(planned).line(),
             |_, line| {
                 let line = format!("{}{line}", std::mem::replace(&mut before, ",\n"));
                 answer.write(&line)
@@ -326,28 +327,62 @@ impl Run {
     }
 }
 
-fn frame_json(planned: &Planned) -> Value {
-    let called = &planned.called;
-    let because = called.because.iter();
-    let because: IndexMap<&str, &str> = because.map(|r| (r.effect, r.why.as_str())).collect();
-    let mut frame = json!({
-        "frame": planned.frame,
-        "effects": {
-            "geometry": called.geometry,
-            "doppler": called.doppler,
-            "beaming": called.beaming != Beaming::Off,
-            "thermal": called.thermal,
-            "shadows": called.shadows,
-            "mirror": called.mirror,
-            "refraction": called.refraction,
-        },
-        "because": because,
-        "trace": planned.trace,
-        "status": word(&planned.status),
-        "seconds": planned.seconds,
-    });
-    if let Status::Stale { because } = &planned.status {
-        frame["stale_because"] = json!(because);
+/// A frame as the contract has it.
+#[derive(Serialize)]
+struct Frame<'a> {
+    frame: u32,
+    effects: Effects,
+    #[serde(serialize_with = "by_effect")]
+    because: &'a [Reason],
+    trace: u32,
+    status: &'static str,
+    seconds: f64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    stale_because: Option<&'a str>,
+}
+
+/// Whether each effect is simulated.
+#[derive(Serialize)]
+struct Effects {
+    geometry: bool,
+    doppler: bool,
+    beaming: bool,
+    thermal: bool,
+    shadows: bool,
+    mirror: bool,
+    refraction: bool,
+}
+
+impl<'a> Frame<'a> {
+    fn of(planned: &'a Planned) -> Self {
+        let called = &planned.called;
+        Self {
+            frame: planned.frame,
+            effects: Effects {
+                geometry: called.geometry,
+                doppler: called.doppler,
+                beaming: called.beaming != Beaming::Off,
+                thermal: called.thermal,
+                shadows: called.shadows,
+                mirror: called.mirror,
+                refraction: called.refraction,
+            },
+            because: &called.because,
+            trace: planned.trace,
+            status: word(&planned.status),
+            seconds: planned.seconds,
+            stale_because: match &planned.status {
+                Status::Stale { because } => Some(because),
+                Status::Fresh | Status::Missing => None,
+            },
+        }
     }
-    frame
+
+    fn line(&self) -> String {
+        serde_json::to_string(self).expect("texts and finite numbers have JSON")
+    }
+}
+
+fn by_effect<S: Serializer>(reasons: &[Reason], serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.collect_map(reasons.iter().map(|reason| (reason.effect, &reason.why)))
 }
