@@ -2,12 +2,14 @@
 //! cuts change nothing.
 #![expect(
     clippy::unwrap_used,
+    clippy::panic,
     reason = "a test that cannot be set up has failed"
 )]
 
+use restframe::film::{Film, SILENT};
 use restframe::probe::{Probe, probe};
 use restframe::queue::Prepared;
-use restframe::render::{View, rows, spliced};
+use restframe::render::{Enough, Member, Options, View, enough_bounces, render, rows, spliced};
 use restframe::scene::Scene;
 use restframe::trace::Stage;
 use std::path::Path;
@@ -115,6 +117,103 @@ fn what_is_left_out_is_what_the_answer_says() {
         }
         assert!(most > 0.0, "{cutoff} {bounces}");
     }
+}
+
+/// A film of [`furnace`] and the member it is of, handed to `look`.
+fn film_of<T>(bounces: u32, look: impl FnOnce(Member<'_>, &Stage, &Film) -> T) -> T {
+    let folder = tempfile::tempdir().unwrap();
+    let assets = Path::new(env!("CARGO_MANIFEST_DIR")).join("assets");
+    std::fs::copy(assets.join("sphere.obj"), folder.path().join("ball.obj")).unwrap();
+    let path = folder.path().join("shot.toml");
+    let head = "[image]\nsize = [96, 96]\nsamples = 4\n[sensor]\nexposure = 0\n";
+    std::fs::write(&path, format!("{head}{}", furnace(1e-4, bounces))).unwrap();
+    let prepared = Prepared::read(&path).unwrap();
+    let shot = &prepared.shot;
+    let scene = Scene::resolve(shot, &prepared.library, 1, None).unwrap();
+    let stage = Stage::build(&scene.geometry, None);
+    let options = Options {
+        width: 96,
+        height: 96,
+        samples: 4,
+        layers: Vec::new(),
+    };
+    let film = render(shot, 1, &scene, &stage, &options, &|_| ()).unwrap();
+    let member = Member {
+        shot,
+        frame: 1,
+        scene: &scene,
+    };
+    look(member, &stage, &film)
+}
+
+/// Everything that a ball of glass in an even sky shows is the sky: what is lacking was left out.
+#[test]
+fn of_glass_in_an_even_sky_what_is_left_out_is_what_is_lacking() {
+    let sky = 683.0 * 106.856_895; // lm/W times the sum of the CIE's ȳ over 360 to 830 nm.
+    for bounces in [1, 2, 4, 8, 12] {
+        film_of(bounces, |member, stage, film| {
+            let seen: f64 = film.xyz.iter().map(|xyz| f64::from(xyz[1])).sum();
+            let lacking = 1.0 - seen / sky / film.xyz.len() as f64;
+            let share = film.left_out.share();
+            // What a grid of 84 wavelengths and f32 spectra come to.
+            assert!(
+                (share - lacking).abs() < 1e-4,
+                "{bounces}: {share} {lacking}"
+            );
+            assert!(share > 0.0, "{bounces}");
+            let size = [film.width, film.height];
+            let enough = enough_bounces(member, stage, size, &film.left_out).unwrap();
+            if share <= SILENT {
+                return;
+            }
+            let Enough::Bounces(enough) = enough else {
+                panic!("{bounces}: no number would do");
+            };
+            assert!(enough > bounces);
+            let left = |n| film_of(n, |_, _, film| film.left_out.share());
+            assert!(left(enough) <= SILENT, "{enough} leave {}", left(enough));
+            // And not many more than needed.
+            assert!(enough < bounces + 2 || left(enough - 2) > SILENT / 2.0);
+        });
+    }
+    // One of the five is the default, and it will do; of one bounce it is told.
+    assert!(film_of(1, |_, _, film| film.left_out.share()) > SILENT);
+    assert!(film_of(8, |_, _, film| film.left_out.share()) < SILENT);
+}
+
+#[test]
+fn what_is_left_out_is_the_same_on_any_number_of_threads() {
+    let on = |threads| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
+        let pool = pool.build().unwrap();
+        pool.install(|| {
+            film_of(1, |member, stage, film| {
+                let enough = enough_bounces(member, stage, [96, 96], &film.left_out).unwrap();
+                (film.left_out, enough)
+            })
+        })
+    };
+    assert_eq!(on(1), on(3));
+}
+
+#[test]
+fn a_probe_tells_how_many_bounces_would_do() {
+    let seen = sees(&furnace(1e-4, 1), [1, 4]);
+    let enough = seen.enough_bounces.unwrap();
+    assert!(seen.cut > SILENT);
+    let [fewer, more] = [enough - 1, enough].map(|n| sees(&furnace(1e-4, n), [1, 4]));
+    assert!(more.cut <= SILENT && fewer.cut > SILENT);
+    assert_eq!(more.enough_bounces, None);
+    // What is too faint no number of bounces brings back.
+    let faint = sees(&furnace(0.3, 1), [1, 4]);
+    assert!(faint.cut > SILENT);
+    assert_eq!(faint.enough_bounces, None);
+}
+
+#[test]
+fn where_mirrors_are_off_nothing_is_left_out() {
+    film_of(0, |_, _, film| assert_eq!(film.left_out.share(), 0.0));
+    assert_eq!(sees(&furnace(1e-4, 0), [4, 4]).enough_bounces, None);
 }
 
 #[test]

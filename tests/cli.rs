@@ -583,3 +583,92 @@ fn the_first_shot_of_the_readme_renders_and_probes_as_it_says() {
         format!("$ restframe {call}\n{answer}")
     );
 }
+
+/// A glass ball in an even sky, which shows nothing but that sky.
+fn glass(more: &str) -> String {
+    format!(
+        "[image]\nsize = [48, 48]\nsamples = 2\n[sensor]\nexposure = 0\n\
+         [[model]]\nfile = \"sphere.obj\"\nmaterial = \"glass\"\n\
+         [material.glass]\nmirror = {{ spectrum = 1.0 }}\nrefraction = {{ spectrum = 1.0 }}\n\
+         [background]\nspectrum = 1e-3\n[camera]\nposition = [0, 0, 3]\nhfov = 30\n{more}"
+    )
+}
+
+#[test]
+fn light_that_bounces_cut_is_told_with_the_number_that_would_do() {
+    let desk = Desk::new();
+    let events = |more: &str| -> Vec<Value> {
+        desk.write("glass.toml", &glass(more));
+        let told = desk.call("render glass.toml --json");
+        assert_eq!(told.status, 0, "{}", told.stderr);
+        let lines = told.stdout.lines();
+        lines
+            .map(|line| serde_json::from_str(line).unwrap())
+            .collect()
+    };
+    let cut = |events: &[Value]| {
+        let frame = events.iter().find(|e| e["event"] == "frame").unwrap();
+        frame["cut"].as_f64().unwrap()
+    };
+    let warning = |events: &[Value]| {
+        let warning = events.iter().find(|e| e["event"] == "warning")?;
+        Some(warning["message"].as_str().unwrap().to_owned())
+    };
+    let shallow = events("[effects]\nbounces = 2\n");
+    assert!(cut(&shallow) > 0.005, "{shallow:?}");
+    let message = warning(&shallow).unwrap();
+    let (_, rest) = message.split_once("effects.bounces = ").unwrap();
+    let (enough, rest) = rest.split_once(' ').unwrap();
+    assert_eq!(rest, "would leave out less than 0.5 %", "{message}");
+    let manifest = fs::read_to_string(desk.path("renders/glass/glass.manifest.jsonl")).unwrap();
+    let record: Value = serde_json::from_str(manifest.lines().last().unwrap()).unwrap();
+    assert_eq!(record["cut"].as_f64().unwrap(), cut(&shallow));
+    let page = fs::read_to_string(desk.path("renders/glass/index.html")).unwrap();
+    assert!(page.contains("Light left out, %") && page.contains("is left out, too deep"));
+    let deep = events(&format!("[effects]\nbounces = {enough}\n"));
+    assert!(cut(&deep) > 0.0 && cut(&deep) < 0.005, "{enough}: {deep:?}");
+    assert_eq!(warning(&deep), None);
+    assert_eq!(warning(&events("")), None, "eight by default");
+    let faint = events("[accuracy]\ncutoff = 0.3\n");
+    let message = warning(&faint).unwrap();
+    assert!(
+        message.contains("too faint for accuracy.cutoff = 0.3"),
+        "{message}"
+    );
+    let off = events("[effects]\nbounces = 0\n");
+    assert_eq!((cut(&off), warning(&off)), (0.0, None), "it was turned off");
+    let probe = "probe glass.toml --pixel 8 24";
+    desk.write("glass.toml", &glass("[effects]\nbounces = 1\n"));
+    let told = desk.call(probe).stdout;
+    assert!(told.contains("would leave out less than 0.5 %"), "{told}");
+    let json: Value = serde_json::from_str(&desk.call(&format!("{probe} --json")).stdout).unwrap();
+    assert!(json["enough_bounces"].as_u64().unwrap() > 1);
+}
+
+/// Beyond what a float holds: told, and neither infinite nor black.
+#[test]
+fn a_lamp_on_a_wall_is_finite_and_what_no_picture_holds_is_counted() {
+    let desk = Desk::new();
+    desk.write(
+        "wall.obj",
+        "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nf 1 2 3 4\n",
+    );
+    for z in ["1e-160", "1e-320", "0"] {
+        desk.write(
+            "lamp.toml",
+            &format!(
+                "[image]\nsize = [5, 5]\nsamples = 1\nfilter = \"box\"\n[sensor]\nexposure = 0\n\
+                 [[model]]\nfile = \"wall.obj\"\nmaterial = \"paint\"\n\
+                 [material.paint]\ndiffuse = {{ spectrum = 0.5 }}\n\
+                 [[light]]\nkind = \"point\"\nposition = [0, 0, {z}]\nintensity = 100\n\
+                 [camera]\nposition = [0, 0, 3]\nhfov = 20\n"
+            ),
+        );
+        let told = desk.call("probe lamp.toml --pixel 2 2 --json");
+        assert!(!told.stdout.contains("null"), "{z}: {}", told.stdout);
+        let seen: Value = serde_json::from_str(&told.stdout).unwrap();
+        assert_eq!(seen["xyz"][1].as_f64().unwrap() > 1e38, z != "0", "{z}");
+        let told = desk.call("render lamp.toml --force");
+        assert_eq!(told.status, 0, "{}", told.stderr);
+    }
+}

@@ -108,6 +108,7 @@ fn record(reel: &Reel, frame: u32, bytes: u64) -> Record {
         } else {
             Vec::new()
         },
+        cut: 0.0,
         memory_mib: Some(80),
         threads: 2,
         host: "owl".to_owned(),

@@ -424,6 +424,43 @@ fn lamp(position: &str) -> String {
     format!("[[light]]\nkind = \"point\"\nposition = {position}\nscale = 1.0\nspectrum = 1.0\n")
 }
 
+/// E = I cos θ/r² is beyond all numbers within 1e-154 m of a point of light: held, and where it is more
+/// than a picture holds, that is counted. Exactly at the surface, the lamp is on neither side of it.
+#[test]
+fn lamps_at_a_surface_are_finite_at_any_distance() {
+    let awkward = Awkward::new();
+    let cases = [
+        ("grid", 1.0),
+        ("spline", 1.0),
+        ("exact", 1.0),
+        ("lines", 1.0),
+    ];
+    for (spectra, scale) in cases.into_iter().chain([("grid", 1e300)]) {
+        let sees = |z: f64| {
+            let rest = format!(
+                "[accuracy]\nspectra = \"{spectra}\"\n{WALL}[[light]]\nkind = \"point\"\n\
+                 position = [0, 0, {z:e}]\nscale = {scale:e}\nspectrum = 1.0\n\
+                 [camera]\nposition = [0, 0, 3]\nhfov = 20\n"
+            );
+            awkward.sees(&format!("at-{spectra}"), &rest, [2, 2])
+        };
+        let [dark, near, usual] = [0.0, 1e-9, 1e-3].map(&sees);
+        assert!(usual.radiance[40] > dark.radiance[40]);
+        if scale == 1.0 && spectra != "lines" {
+            // A million times nearer, and the rest of what is seen is nothing beside it.
+            let lit = |probe: &Probe| probe.radiance[40] - dark.radiance[40];
+            let ratio = lit(&near) / lit(&usual);
+            assert!((ratio / 1e12 - 1.0).abs() < 1e-6, "{spectra}: {ratio:e}");
+        }
+        let mut before = near.xyz[1];
+        for z in [1e-20, 1e-35, 1e-100, 1e-153, 1e-160, 1e-200, 1e-320] {
+            let here = sees(z).xyz[1];
+            assert!(here >= before, "{spectra} {z:e}: {here:e} {before:e}");
+            before = here;
+        }
+    }
+}
+
 #[test]
 fn a_camera_on_a_surface_sees_none_of_it_and_no_nan() {
     let awkward = Awkward::new();

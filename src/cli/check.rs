@@ -1,8 +1,9 @@
 //! `restframe check`.
 
 use super::render::{warn, warnings};
-use super::{Failed, MISTAKE, mistaken, print, print_json};
+use super::{Failed, MISTAKE, mistaken, print, print_json, say};
 use crate::queue::Prepared;
+use crate::sequence;
 use serde_json::json;
 use std::path::PathBuf;
 
@@ -15,6 +16,9 @@ pub(super) fn run(shots: &[PathBuf], as_json: bool) -> Result<(), Failed> {
             Ok(prepared) if as_json => reports.push(sound(&prepared)),
             Ok(prepared) => {
                 warn(&prepared);
+                if let Some(why) = foreseen(&prepared) {
+                    say(&format!("warning: {why}"));
+                }
                 let frames = prepared.shot.shot.frames;
                 let s = if frames == 1 { "" } else { "s" };
                 print(&format!(
@@ -39,8 +43,18 @@ pub(super) fn run(shots: &[PathBuf], as_json: bool) -> Result<(), Failed> {
     if wrong { Err(Failed(MISTAKE)) } else { Ok(()) }
 }
 
+/// What cannot be assembled of its frames.
+fn foreseen(prepared: &Prepared) -> Option<String> {
+    let shot = &prepared.shot;
+    let why = sequence::foreseen(shot, shot.image.size)?;
+    Some(format!("{}: {why}", shot.path.display()))
+}
+
 fn sound(prepared: &Prepared) -> serde_json::Value {
-    let warnings = warnings(prepared);
+    let warnings: Vec<String> = warnings(prepared)
+        .into_iter()
+        .chain(foreseen(prepared))
+        .collect();
     json!({
         "shot": prepared.shot.path.to_string_lossy(),
         "ok": true,

@@ -4,6 +4,7 @@
 //! done, 1 something failed while rendering, 2 a mistake in the shot or the call, 130 interrupted,
 //! 143 terminated.
 
+mod answer;
 mod assemble;
 mod check;
 mod finish;

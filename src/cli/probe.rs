@@ -108,8 +108,11 @@ fn described(probe: &Probe, color: SensorColor) -> String {
         );
     }
     if probe.cut > 0.0 {
+        let enough = probe.enough_bounces.map_or_else(String::new, |bounces| {
+            format!("; effects.bounces = {bounces} would leave out less than 0.5 %")
+        });
         lines.push(format!(
-            "  not followed {:.3e} of the light that arrives there",
+            "  not followed {:.3e} of the light that arrives there{enough}",
             probe.cut
         ));
     }

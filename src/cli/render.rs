@@ -6,6 +6,7 @@ use crate::queue::{
     Force, Job, Names, Night, Prepared, Progress, Reel, Request, Resolved, Results, Stop,
     choose_shard, list_of,
 };
+use crate::sequence::foreseen;
 use crate::shot::{self, LARGEST_SIDE, Mistakes, Shot};
 use std::collections::HashMap;
 use std::path::Path;
@@ -120,6 +121,12 @@ fn read(
     } else {
         Closed::None
     };
+    for job in &jobs {
+        let (shot, size) = (job.reel.shot(), job.reel.keys.picture().size);
+        if let Some(why) = foreseen(shot, size) {
+            progress.warn(&format!("{}: {why}", shot.path.display()));
+        }
+    }
     sound(jobs.iter_mut().map(|job| job.prepare(force)), &mut wrong);
     for prepared in jobs.iter().filter_map(Job::prepared) {
         for warning in warnings(prepared) {

@@ -1,24 +1,27 @@
 //! `restframe verify`.
 
+use super::answer::Answer;
 use super::render::check_scale;
-use super::{
-    FAILURE, Failed, FinishedArguments, MISTAKE, failed, mistaken, misused, print, print_json,
-};
+use super::{FAILURE, Failed, FinishedArguments, MISTAKE, failed, mistaken, misused, print};
 use crate::queue::{Reel, ReelError};
-use crate::sequence::{Report, verify};
+use crate::sequence::{Finding, Report, verify};
 use crate::shot::{self, Mistakes};
+use serde::{Serialize, Serializer};
 use serde_json::{Value, json};
+use std::borrow::Cow;
 use std::path::Path;
 
 /// Looks at the frames of every shot; one with a mistake does not keep the others from it.
 pub(super) fn run(arguments: &FinishedArguments) -> Result<(), Failed> {
     let mut worst = None;
-    let mut reports = Vec::new();
+    let mut list = arguments.json.then(List::new);
     for path in &arguments.shots {
         let reel = match open(path, arguments) {
             Ok(reel) => reel,
             Err(unopened) => {
-                reports.push(unopened.as_json(path));
+                if let Some(list) = &mut list {
+                    list.add(&unopened.as_json(path))?;
+                }
                 worst = worse(worst, unopened.failed);
                 continue;
             }
@@ -27,22 +30,77 @@ pub(super) fn run(arguments: &FinishedArguments) -> Result<(), Failed> {
         if !report.findings.is_empty() {
             worst = worse(worst, Failed(FAILURE));
         }
-        if arguments.json {
-            reports.push(json!({
-                "shot": path.to_string_lossy(),
-                "folder": reel.folder.to_string_lossy(),
-                "frames": report.frames,
-                "sound": report.sound(),
-                "findings": report.findings,
-            }));
-        } else {
-            tell(path, &report)?;
+        match &mut list {
+            Some(list) => list.add(&Answered {
+                shot: path.to_string_lossy(),
+                folder: reel.folder.to_string_lossy(),
+                frames: report.frames,
+                sound: report.sound(),
+                findings: Each(&reel, &report.findings),
+            })?,
+            None => tell(path, &report)?,
         }
     }
-    if arguments.json {
-        print_json(&json!({ "shots": reports }))?;
-    }
+    list.map_or(Ok(()), List::end)?;
     worst.map_or(Ok(()), Err)
+}
+
+/// The answer as JSON, shot by shot.
+struct List {
+    answer: Answer,
+    before: &'static str,
+}
+
+impl List {
+    fn new() -> Self {
+        let answer = Answer::new();
+        let before = "{\"shots\": [\n";
+        Self { answer, before }
+    }
+
+    fn add(&mut self, shot: &impl Serialize) -> Result<(), Failed> {
+        self.answer.write(self.before)?;
+        self.before = ",\n";
+        self.answer.json(shot).map(|_| ())
+    }
+
+    fn end(mut self) -> Result<(), Failed> {
+        self.answer.write("\n]}\n")?;
+        self.answer.end()
+    }
+}
+
+/// What is told of a shot.
+#[derive(Serialize)]
+struct Answered<'a> {
+    shot: Cow<'a, str>,
+    folder: Cow<'a, str>,
+    frames: u32,
+    sound: u32,
+    findings: Each<'a>,
+}
+
+/// Findings, each frame of a run by itself.
+struct Each<'a>(&'a Reel, &'a [Finding]);
+
+impl Serialize for Each<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let Self(reel, findings) = *self;
+        let file = |frame| reel.files(frame).into_iter().next().unwrap_or_default();
+        let one = |finding: &Finding, frame: u32| Finding {
+            frame: Some(frame),
+            last: None,
+            file: file(frame),
+            why: "missing".to_owned(),
+            ..finding.clone()
+        };
+        serializer.collect_seq(findings.iter().flat_map(|finding| {
+            let run = finding.last.map(|_| finding.frames());
+            let alone = run.is_none().then(|| finding.clone());
+            let each = run.into_iter().flatten();
+            each.map(move |frame| one(finding, frame)).chain(alone)
+        }))
+    }
 }
 
 fn tell(path: &Path, report: &Report) -> Result<(), Failed> {

@@ -15,6 +15,7 @@ mod develop;
 mod expose;
 pub mod exr;
 pub mod imprint;
+mod left_out;
 mod metadata;
 pub mod plot;
 pub mod png;
@@ -22,6 +23,7 @@ pub mod raster;
 
 pub use develop::{Developed, Development, develop};
 pub use expose::{auto_exposure, luminance_percentile};
+pub use left_out::{LeftOut, SILENT};
 pub use metadata::{FINGERPRINT, Metadata, SOFTWARE, rational_rate};
 
 /// A picture as the sensor gathered it.
@@ -38,6 +40,8 @@ pub struct Film {
     pub xyz: Vec<[f32; 3]>,
     /// What else is known of each pixel.
     pub layers: Layers,
+    /// What of its light was not followed in mirrors and glass.
+    pub left_out: LeftOut,
 }
 
 /// What the three channels of a film hold.

@@ -3,9 +3,10 @@
 
 use super::files::Digests;
 use super::parts::{self, Parts, Pixels};
-use super::traced::trace_key;
+use super::traces::{Trace, Traces, trace};
 use crate::shot::{Exposure, Shot};
 use indexmap::IndexMap;
+use rayon::prelude::*;
 
 /// Raised whenever the same shot gives other pixels than before, so that no older picture passes
 /// for a new one.
@@ -71,6 +72,21 @@ impl Keys {
         self.picture
     }
 
+    /// The traces of its frames, for whoever asks for many and for nothing else.
+    pub fn traces(&self) -> Traces<'_> {
+        Traces::new(&self.shot, &self.digests, self.picture)
+    }
+
+    /// The traces of some frames, in their order.
+    pub fn traces_of(&self, frames: &[u32]) -> Vec<Trace> {
+        const AT_ONCE: usize = 1024;
+        let some = frames.par_chunks(AT_ONCE).map_init(
+            || self.traces(),
+            |traces, frames| frames.iter().map(|f| traces.of(*f)).collect::<Vec<_>>(),
+        );
+        some.collect::<Vec<_>>().concat()
+    }
+
     /// What frame number `frame` is made of.
     pub fn frame(&self, frame: u32) -> FrameKey {
         let still = self.shot.at(frame);
@@ -81,7 +97,7 @@ impl Keys {
         let parts = made_of(&still, &self.digests, pixels);
         FrameKey {
             fingerprint: parts::hash(&parts).to_hex().to_string(),
-            trace: trace_key(&still, &self.digests, self.picture),
+            trace: trace(&still, &self.digests, self.picture).to_string(),
             parts,
         }
     }

@@ -10,9 +10,11 @@ mod key;
 mod motion;
 mod parts;
 mod traced;
+mod traces;
 
 pub use effects::{Called, Reason, called};
 pub use facts::{Facts, facts};
 pub use files::Digests;
 pub use key::{EPOCH, FrameKey, Keys, Picture};
 pub use motion::{MotionError, celerity, worldline};
+pub use traces::{Trace, Traces};

@@ -12,7 +12,7 @@ use super::files::Digests;
 use super::key::Picture;
 use super::parts::aspect;
 use crate::shot::{
-    Accuracy, Background, Clock, Effects, Format, Light, Material, Model, Refraction, Shot,
+    Accuracy, Background, Clock, Effects, Format, Light, Material, Model, Moving, Refraction, Shot,
     SpectrumTable, SpectrumValue, Splice, SpliceEffects, Track,
 };
 use serde_json::{Value, json};
@@ -28,63 +28,59 @@ const LARGEST: f64 = 1e200;
 /// Below this a black body's curve, 1 at some wavelength, is beyond all numbers at others, K.
 const COLDEST: f64 = 100.0;
 
-/// What the shade trees of `still`, a shot of one frame, follow from, hashed: 16 hexadecimal digits.
-pub(super) fn trace_key(still: &Shot, digests: &Digests, picture: Picture) -> String {
-    let traced = Traced { still, digests };
-    let models: Vec<Value> = still.model.iter().map(|m| traced.model(m)).collect();
-    let materials: BTreeMap<&String, Value> = still
-        .material
-        .iter()
-        .map(|(name, material)| (name, traced.material(material)))
-        .collect();
-    let lamps: Vec<Value> = still
-        .light
-        .iter()
-        .filter_map(|light| traced.lamp(light))
-        .collect();
-    let splices: Vec<Value> = still.splice.iter().map(splice).collect();
-    let exr = still.output.formats.contains(&Format::Exr);
-    // By all their keys: one that is new does not compile until it is placed.
-    let Effects {
-        geometry,
-        doppler: _,
-        beaming: _,
-        thermal: _,
-        shadows,
-        bounces,
-    } = still.effects;
-    let Accuracy {
-        spectra: _,
-        wavelengths: _,
-        line_spacing: _,
-        tracing,
-        cutoff,
-    } = still.accuracy;
-    let Clock {
-        title: _,
-        frames: _,
-        fps: _,
-        time,
-        light_speed,
-    } = &still.shot;
-    let traced = json!([
-        [picture.size, [picture.samples], aspect(still.image.size)],
-        [
-            json!(still.image.filter),
-            json!(exr.then_some(&still.output.layers))
-        ],
-        [json!(time), json!(light_speed)],
-        still.camera,
-        still.worldline.iter().collect::<Vec<_>>(),
-        models,
-        materials,
-        lamps,
-        traced.sky(&still.background),
-        [json!(geometry), json!(shadows), json!(bounces)],
-        splices,
-        [json!(tracing), json!(cutoff)],
-    ]);
-    blake3::hash(traced.to_string().as_bytes()).to_hex()[..16].to_owned()
+/// A part of what shade trees follow from, by where it stands in the shot.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Section {
+    Picture,
+    Film,
+    Clock,
+    Camera,
+    Worldlines,
+    Models,
+    Materials,
+    Lamps,
+    Sky,
+    Effects,
+    Splices,
+    Accuracy,
+}
+
+impl Section {
+    /// All of them, in the order in which they are hashed.
+    pub(super) const ALL: [Self; 12] = [
+        Self::Picture,
+        Self::Film,
+        Self::Clock,
+        Self::Camera,
+        Self::Worldlines,
+        Self::Models,
+        Self::Materials,
+        Self::Lamps,
+        Self::Sky,
+        Self::Effects,
+        Self::Splices,
+        Self::Accuracy,
+    ];
+
+    /// Whether it may be another in each frame of a shot that moves so.
+    pub(super) fn moves(self, moving: Moving) -> bool {
+        match self {
+            Self::Clock => moving.time,
+            Self::Camera => moving.camera,
+            Self::Worldlines => moving.worldlines,
+            // "camera" as a worldline is a name, which does not move.
+            Self::Models => moving.models,
+            Self::Materials => moving.materials || moving.spectra,
+            Self::Lamps => moving.lights || moving.spectra,
+            Self::Sky => moving.background || moving.spectra,
+            Self::Picture | Self::Film | Self::Effects | Self::Splices | Self::Accuracy => false,
+        }
+    }
+}
+
+/// A value as JSON.
+fn text(value: &impl serde::Serialize) -> String {
+    serde_json::to_string(value).expect("all keys of a shot are text")
 }
 
 fn splice(splice: &Splice) -> Value {
@@ -105,12 +101,66 @@ fn now(track: &Track<f64>) -> f64 {
     track.at(1, 1)
 }
 
-struct Traced<'a> {
-    still: &'a Shot,
-    digests: &'a Digests,
+/// What the shade trees of a shot of one frame follow from.
+pub(super) struct Traced<'a> {
+    pub(super) still: &'a Shot,
+    pub(super) digests: &'a Digests,
+    pub(super) picture: Picture,
 }
 
 impl Traced<'_> {
+    /// One section of it, as JSON.
+    pub(super) fn text(&self, section: Section) -> String {
+        let (still, picture) = (self.still, self.picture);
+        // By all their keys: one that is new does not compile until it is placed.
+        let Effects {
+            geometry,
+            doppler: _,
+            beaming: _,
+            thermal: _,
+            shadows,
+            bounces,
+        } = still.effects;
+        let Accuracy {
+            spectra: _,
+            wavelengths: _,
+            line_spacing: _,
+            tracing,
+            cutoff,
+        } = still.accuracy;
+        let Clock {
+            title: _,
+            frames: _,
+            fps: _,
+            time,
+            light_speed,
+        } = &still.shot;
+        let list = match section {
+            Section::Picture => {
+                json!([picture.size, [picture.samples], aspect(still.image.size)])
+            }
+            Section::Film => {
+                let exr = still.output.formats.contains(&Format::Exr);
+                json!([still.image.filter, exr.then_some(&still.output.layers)])
+            }
+            Section::Clock => json!([time, light_speed]),
+            Section::Camera => return text(&still.camera),
+            Section::Worldlines => return text(&still.worldline.iter().collect::<Vec<_>>()),
+            Section::Models => still.model.iter().map(|m| self.model(m)).collect(),
+            Section::Materials => {
+                let materials = still.material.iter();
+                let materials = materials.map(|(name, material)| (name, self.material(material)));
+                json!(materials.collect::<BTreeMap<&String, Value>>())
+            }
+            Section::Lamps => still.light.iter().filter_map(|l| self.lamp(l)).collect(),
+            Section::Sky => self.sky(&still.background),
+            Section::Effects => json!([geometry, shadows, bounces]),
+            Section::Splices => still.splice.iter().map(splice).collect(),
+            Section::Accuracy => json!([tracing, cutoff]),
+        };
+        list.to_string()
+    }
+
     fn model(&self, model: &Model) -> Value {
         let Model {
             name: _,

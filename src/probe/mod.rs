@@ -6,9 +6,9 @@ mod plot;
 pub use inset::inset;
 pub use plot::{WideBand, plot, wide_band};
 
-use crate::film::Channels;
+use crate::film::{Channels, SILENT};
 use crate::relativity::Event;
-use crate::render::{self, LabPath, View, development};
+use crate::render::{self, Enough, LabPath, View, development};
 use crate::scene::Scene;
 use crate::shade::{Radiance, ShadeScratch};
 use crate::shot::{Accuracy, Effects, Shot, Spectra};
@@ -43,6 +43,10 @@ pub struct Probe {
     /// Share of mirrored and refracted light that was not followed; the error is at most this times
     /// what arrives there.
     pub cut: f64,
+    /// `effects.bounces` with which less than 0.5 % would be cut; None where that is so already, and
+    /// where it is too faint for any number of them.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub enough_bounces: Option<u32>,
     /// The part of `radiance` that surfaces reflect or emit cold, and the background.
     pub surface: Vec<f64>,
     /// Its thermal part.
@@ -115,11 +119,13 @@ pub fn probe(
     let shader = view.shader();
     let mut light = Radiance::new(shader.wavelengths_nm().len());
     let (mut chain, mut cut, mut direction) = (Vec::new(), 0.0, None);
+    let mut enough = None;
     let (mut channels, mut xyz) = ([0.0; 3], [0.0; 3]);
     if let Some((trees, towards)) = look(shot, pixel, view, scene) {
         let root = trees.roots[0];
         chain = self::chain(view, scene, trees.nodes_of(root), towards);
         cut = root.cut;
+        enough = enough_bounces(view, cut, towards);
         light = if matches!(shot.accuracy.spectra, Spectra::Grid | Spectra::Rgb) {
             // The grid's own curves are made for sums: what bends is smoothed. Three numbers have
             // none.
@@ -139,10 +145,13 @@ pub fn probe(
         direction = Some(towards);
     }
     let radiance = light.total();
-    let gain = exposure.exp2() / 100.0;
+    let gain = (exposure.exp2() / 100.0).min(f64::MAX);
     let rgb = development(shot, exposure).rgb_from_xyz.map(|row| {
-        let terms = row.iter().zip(channels).map(|(m, v)| m * v);
-        terms.sum::<f64>() * gain
+        // Held to a fraction of the numbers, so that their sum is one.
+        const MOST: f64 = f64::MAX / 4.0;
+        let terms = row.iter().zip(channels);
+        let terms = terms.map(|(m, v)| (m * (v * gain)).clamp(-MOST, MOST));
+        terms.sum::<f64>()
     });
     Probe {
         frame,
@@ -151,6 +160,7 @@ pub fn probe(
         hit: chain.first().and_then(|node| node.hit.clone()),
         chain,
         cut,
+        enough_bounces: enough,
         wavelengths: view.shader().wavelengths_nm(),
         radiance,
         surface: light.surface,
@@ -174,6 +184,22 @@ fn look(
     view.tracer()
         .trace(&[direction], &mut Scratch::default(), &mut trees);
     Some((trees, direction))
+}
+
+/// The least number of bounces that would leave out little of a ray, where much is cut.
+fn enough_bounces(view: &View<'_>, cut: f64, direction: DVec3) -> Option<u32> {
+    let will_do = |bounces: u32| {
+        let mut trees = ShadeTrees::default();
+        render::deeper(view, bounces).trace(&[direction], &mut Scratch::default(), &mut trees);
+        trees.roots[0].cut <= SILENT
+    };
+    if cut <= SILENT || !view.branches() {
+        return None;
+    }
+    match render::least(view.tracer().bounces, will_do) {
+        Enough::Bounces(bounces) => Some(bounces),
+        Enough::None => None,
+    }
 }
 
 fn chain(view: &View<'_>, scene: &Scene, nodes: &[Node], direction: DVec3) -> Vec<ProbeNode> {

@@ -3,7 +3,7 @@
 
 use super::job::Job;
 use super::reel::Glance;
-use crate::plan::FrameKey;
+use crate::plan::Trace;
 use crate::render::{Options, film_bytes};
 
 /// Most memory for the films of a batch, bytes. A film of 1280 x 720 is 11 MiB: forty and more
@@ -17,7 +17,7 @@ pub(super) struct Task {
     /// Number of its job in the night.
     pub(super) job: usize,
     pub(super) frame: u32,
-    pub(super) key: FrameKey,
+    pub(super) trace: Trace,
     /// Why, if it was there before.
     pub(super) because: Option<String>,
     /// The folder as it was when that was judged.
@@ -29,11 +29,12 @@ pub(super) struct Task {
 /// Tasks in the order of work: by the first of each trace, tasks of one trace together, and so many
 /// at once as [`FILMS`] holds.
 pub(super) fn batches(tasks: Vec<Task>, jobs: &[Job]) -> Vec<Vec<Task>> {
+    // Equal traces of two shots may still want other layers.
+    let like = |job: &Job| jobs.iter().position(|other| other.options == job.options);
+    let layers: Vec<Option<usize>> = jobs.iter().map(like).collect();
     let mut groups = indexmap::IndexMap::<_, Vec<Task>>::new();
     for task in tasks {
-        // Equal traces of two shots may still want other layers.
-        let layers = format!("{:?}", jobs[task.job].options);
-        let group = groups.entry((task.key.trace.clone(), layers));
+        let group = groups.entry((task.trace, layers[task.job]));
         group.or_default().push(task);
     }
     let mut batches = Vec::new();

@@ -14,6 +14,8 @@ pub enum Deed {
         because: Option<String>,
         /// Its seconds on the clock on the wall, of a shared trace its part.
         seconds: f64,
+        /// Share of its light that was not followed in mirrors and glass.
+        cut: f64,
     },
     /// It is not there, and it was tried.
     Failed {
@@ -37,6 +39,14 @@ impl Deed {
         match self {
             Self::Kept { because } | Self::Rendered { because, .. } => because.as_deref(),
             Self::Failed { because } => Some(because),
+        }
+    }
+
+    /// Share of its light that this run did not follow in mirrors and glass.
+    pub fn cut(&self) -> f64 {
+        match self {
+            Self::Rendered { cut, .. } => *cut,
+            _ => 0.0,
         }
     }
 

@@ -25,6 +25,7 @@ pub(super) enum Event<'a> {
         status: &'static str,
         because: Option<&'a str>,
         seconds: f64,
+        cut: f64,
         files: Vec<Cow<'a, str>>,
     },
     /// Something that the pictures' viewer should know.
@@ -64,6 +65,7 @@ impl<'a> Event<'a> {
             status: deed.word(),
             because: deed.because(),
             seconds: deed.seconds(),
+            cut: deed.cut(),
             files: texts(files),
         }
     }

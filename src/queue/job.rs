@@ -13,7 +13,7 @@ use super::reel::{Glance, Reel, ReelError, Status};
 use super::shard::Shard;
 use super::shots::{Exposing, Prepared, Request};
 use super::write::check_writable;
-use crate::plan::FrameKey;
+use crate::plan::{FrameKey, Trace};
 use crate::render::Options;
 use crate::scene::Scene;
 use crate::shot::{Mistakes, Shot};
@@ -61,9 +61,9 @@ pub(super) enum End {
 
 struct Chosen {
     frame: u32,
-    key: FrameKey,
+    trace: Trace,
     status: Status,
-    /// The folder as it was when `status` was judged.
+    /// The folder as it was when `status` was judged; nothing, where nothing was there.
     glance: Glance,
 }
 
@@ -83,15 +83,23 @@ impl Job {
     /// A folder that cannot be read.
     pub fn new(mut reel: Reel, frames: &[u32]) -> Result<Self, ReelError> {
         reel.refresh()?;
+        let there = reel.there();
         // All at once: those without a record are decoded.
-        let chosen = frames.par_iter().map(|&frame| {
-            let key = reel.keys.frame(frame);
-            Chosen {
-                frame,
-                glance: reel.glance(frame),
-                status: reel.status(frame, &key),
-                key,
-            }
+        let statuses = frames.par_iter().map(|frame| match there.contains(frame) {
+            true => (
+                reel.glance(*frame),
+                reel.status(*frame, &reel.keys.frame(*frame)),
+            ),
+            false => (Glance::default(), Status::Missing),
+        });
+        let statuses: Vec<_> = statuses.collect();
+        let traces = reel.keys.traces_of(frames);
+        let chosen = frames.iter().zip(traces).zip(statuses);
+        let chosen = chosen.map(|((frame, trace), (glance, status))| Chosen {
+            frame: *frame,
+            trace,
+            status,
+            glance,
         });
         Ok(Self {
             chosen: chosen.collect(),
@@ -153,8 +161,9 @@ impl Job {
             self.halted = self.furnished(shard).err();
         }
         let fresh = self.chosen.iter().filter(|c| c.status == Status::Fresh);
-        let found = fresh.filter_map(|chosen| self.reel.found(chosen.frame, &chosen.key));
-        let found: Vec<Found> = found.collect();
+        let fresh: Vec<u32> = fresh.map(|chosen| chosen.frame).collect();
+        let found = |frame: &u32| self.reel.found(*frame, &self.reel.keys.frame(*frame));
+        let found: Vec<Found> = fresh.par_iter().filter_map(found).collect();
         if !found.is_empty() && self.halted.is_none() {
             // The pictures are there all the same.
             let _unwritten = self
@@ -188,7 +197,7 @@ impl Job {
         let task = |(chosen, work): (&Chosen, f64)| Task {
             job,
             frame: chosen.frame,
-            key: chosen.key.clone(),
+            trace: chosen.trace,
             because: match &chosen.status {
                 Status::Fresh => Some("fresh, rendered by --force".to_owned()),
                 Status::Missing => None,
@@ -214,10 +223,10 @@ impl Job {
     }
 
     /// Whether another process made a frame what it should be since it was looked at.
-    pub(super) fn came_true(&self, task: &Task) -> bool {
+    pub(super) fn came_true(&self, task: &Task, key: &FrameKey) -> bool {
         // Manifests are not read again, frame after frame: the files tell enough.
         self.reel.glance(task.frame) != task.glance
-            && self.reel.status(task.frame, &task.key) == Status::Fresh
+            && self.reel.status(task.frame, key) == Status::Fresh
     }
 
     /// Paths of a frame's files.
@@ -229,14 +238,14 @@ impl Job {
     /// Seconds that each frame to be rendered is expected to take, of a shared trace its part.
     fn costs(&self, force: Force) -> impl Iterator<Item = f64> {
         let costs = Costs::new(&self.reel);
-        let mut sharing: HashMap<&str, f64> = HashMap::new();
+        let mut sharing: HashMap<Trace, f64> = HashMap::new();
         for chosen in self.wanted(force) {
-            *sharing.entry(&chosen.key.trace).or_default() += 1.0;
+            *sharing.entry(chosen.trace).or_default() += 1.0;
         }
         self.wanted(force).map(move |chosen| {
             let effects = frame_effects(self.reel.shot(), chosen.frame);
             let estimate = costs.estimate(&effects, self.reel.keys.picture());
-            estimate.trace / sharing[chosen.key.trace.as_str()] + estimate.shade
+            estimate.trace / sharing[&chosen.trace] + estimate.shade
         })
     }
 
@@ -260,11 +269,9 @@ impl Job {
 /// Leaves each reel, of the frames chosen, those of one shard. Folders are not looked at: whatever a
 /// machine finds there, all deal alike.
 pub fn choose_shard(reels: &mut [(Reel, Vec<u32>)], shard: Shard) {
-    let trace = |reel: &Reel, frame: &u32| reel.keys.frame(*frame).trace;
     let all = reels.iter();
-    let traces = all.flat_map(|(reel, frames)| frames.iter().map(|frame| trace(reel, frame)));
-    let traces: Vec<String> = traces.collect();
-    let mut ours = shard.choose(traces.iter().map(String::as_str)).into_iter();
+    let traces = all.flat_map(|(reel, frames)| reel.keys.traces_of(frames));
+    let mut ours = shard.choose(traces).into_iter();
     for (_, frames) in reels {
         frames.retain(|_| ours.next() == Some(true));
     }

@@ -44,6 +44,10 @@ pub struct Record {
     pub seconds: Seconds,
     /// What its viewer should know.
     pub warnings: Vec<String>,
+    /// Estimated share of its light that was not followed in mirrors and glass; 0 of frames of before
+    /// it was known.
+    #[serde(default)]
+    pub cut: f64,
     /// Largest memory of the process so far, MiB, where the system says.
     pub memory_mib: Option<u64>,
     /// Threads that worked on it.

@@ -83,11 +83,15 @@ impl Night<'_> {
                 continue;
             }
             match Claim::frame(&job.reel.folder, &job.reel.names, task.frame) {
-                Ok(Some(_)) if force == Force::No && job.came_true(&task) => {
-                    let because = Some("rendered by another process".to_owned());
-                    foreman.settle(job, &task, Deed::Kept { because });
+                Ok(Some(claim)) => {
+                    let key = job.reel.keys.frame(task.frame);
+                    if force == Force::No && job.came_true(&task, &key) {
+                        let because = Some("rendered by another process".to_owned());
+                        foreman.settle(job, &task, Deed::Kept { because });
+                    } else {
+                        ready.push(Ready { task, key, claim });
+                    }
                 }
-                Ok(Some(claim)) => ready.push(Ready { task, claim }),
                 Ok(None) => held.push(task),
                 Err(error) => foreman.failed(job, &task, &error.to_string()),
             }

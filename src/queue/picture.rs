@@ -1,8 +1,8 @@
 //! A film to the files of one frame, as bytes.
 
 use super::inset::Seen;
-use crate::film::{self, EncodeError, Film, Metadata, develop, exr};
-use crate::render::development;
+use crate::film::{self, EncodeError, Film, Metadata, SILENT, develop, exr};
+use crate::render::{Enough, Member, development, enough_bounces};
 use crate::scene::Scene;
 use crate::shot::{Depth, Exposure, Format, Sensor, Sequence, Shot, Track};
 use crate::trace::Stage;
@@ -13,7 +13,9 @@ pub struct Pictures {
     pub files: Vec<(&'static str, Vec<u8>)>,
     /// Values beyond what a file can hold.
     pub saturated: u64,
-    /// What could not be drawn, and why.
+    /// Share of the light that was not followed in mirrors and glass.
+    pub cut: f64,
+    /// What could not be drawn or is not followed, and why.
     pub warnings: Vec<String>,
 }
 
@@ -51,7 +53,9 @@ pub fn pictures(
     let (width, height) = (film.width, film.height);
     let mut files = Vec::new();
     let mut saturated = developed.saturated;
-    let mut warnings = Vec::new();
+    let cut = film.left_out.share();
+    let member = Member { shot, frame, scene };
+    let mut warnings: Vec<String> = cut_light(member, stage, film).into_iter().collect();
     for format in &shot.output.formats {
         files.push(match format {
             Format::Png => {
@@ -80,8 +84,39 @@ pub fn pictures(
     Ok(Pictures {
         files,
         saturated,
+        cut,
         warnings,
     })
+}
+
+/// Says how much of a picture's light was not followed, and what would do, if that is much.
+fn cut_light(member: Member<'_>, stage: &Stage, film: &Film) -> Option<String> {
+    let share = film.left_out.share();
+    if share <= SILENT {
+        return None;
+    }
+    let enough = enough_bounces(member, stage, [film.width, film.height], &film.left_out);
+    let what_would_do = match enough {
+        Ok(Enough::Bounces(bounces)) => {
+            let silent = percent(SILENT);
+            format!("effects.bounces = {bounces} would leave out less than {silent}")
+        }
+        _ => format!(
+            "no number of effects.bounces would do, as it is too faint for accuracy.cutoff = {} or goes on for ever",
+            member.shot.accuracy.cutoff
+        ),
+    };
+    Some(format!(
+        "about {} of its light is left out, too deep in mirrors and glass: {what_would_do}",
+        percent(share)
+    ))
+}
+
+/// Two digits: `1.6 %`.
+fn percent(share: f64) -> String {
+    let value = 100.0 * share;
+    let decimals = if value < 9.95 { 1 } else { 0 };
+    format!("{value:.decimals$} %")
 }
 
 fn exr_depth(depth: Depth) -> exr::Depth {

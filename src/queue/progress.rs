@@ -351,6 +351,7 @@ mod tests {
         let rendered = |because: Option<&str>| Deed::Rendered {
             because: because.map(str::to_owned),
             seconds: 1.2449,
+            cut: 0.0,
         };
         assert_eq!(
             line(3, 49, &rendered(None), &files),
@@ -381,6 +382,7 @@ mod tests {
         let deed = Deed::Rendered {
             because: None,
             seconds: 0.0,
+            cut: 0.0,
         };
         progress.frame(Path::new("a.toml"), (1, &deed), &[], 4.0);
         assert_eq!(share(), 0.4);

@@ -6,7 +6,7 @@ use super::job::Job;
 use super::machine::{host, now, peak_memory_mib};
 use super::manifest::{Record, Seconds};
 use super::picture::Pictures;
-use crate::plan::{self, Called};
+use crate::plan::{self, Called, FrameKey};
 use crate::render::spliced;
 use crate::shot::{Beaming, Shot};
 
@@ -27,21 +27,22 @@ pub(super) fn warnings(made: &Pictures) -> Vec<String> {
 }
 
 /// The record of a frame, but for its files, times and warnings.
-pub(super) fn blank(job: &Job, task: &Task) -> Record {
+pub(super) fn blank(job: &Job, task: &Task, key: &FrameKey) -> Record {
     let options = &job.options;
     Record {
         frame: task.frame,
-        fingerprint: task.key.fingerprint.clone(),
-        parts: task.key.parts.clone(),
+        fingerprint: key.fingerprint.clone(),
+        parts: key.parts.clone(),
         files: Vec::new(),
         size: [options.width, options.height],
         samples: options.samples,
         effects: frame_effects(job.reel.shot(), task.frame),
-        trace: task.key.trace.clone(),
+        trace: key.trace.clone(),
         shared: 1,
         exposure: stops(job, task.frame),
         seconds: Seconds::default(),
         warnings: Vec::new(),
+        cut: 0.0,
         memory_mib: peak_memory_mib(),
         threads: u32::try_from(rayon::current_num_threads()).unwrap_or(u32::MAX),
         host: host(),

@@ -8,7 +8,8 @@ use crate::film::imprint;
 use crate::plan::{Digests, FrameKey, Keys, Picture};
 use crate::render::Options;
 use crate::shot::{Format, Mistakes, Shot};
-use std::collections::BTreeMap;
+use rayon::prelude::*;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::io;
 use std::path::PathBuf;
@@ -113,6 +114,29 @@ impl Reel {
         })?;
         (self.records, self.found) = (records, found);
         Ok(())
+    }
+
+    /// The frames of which a file is there. A folder that cannot be read has none.
+    pub fn there(&self) -> BTreeSet<u32> {
+        let entries = fs::read_dir(&self.folder).into_iter().flatten();
+        let frames = entries.filter_map(|entry| {
+            let name = entry.ok()?.file_name().into_string().ok()?;
+            let (frame, _) = self.names.frame_of(&name)?;
+            let exists = (1..=self.shot().shot.frames).contains(&frame);
+            (exists && self.files(frame).contains(&name)).then_some(frame)
+        });
+        frames.collect()
+    }
+
+    /// Whether frames have to be rendered, in their order: of those that nothing is there of no key is
+    /// made.
+    pub fn statuses(&self, frames: &[u32]) -> Vec<Status> {
+        let there = self.there();
+        let status = |frame: &u32| match there.contains(frame) {
+            true => self.status(*frame, &self.keys.frame(*frame)),
+            false => Status::Missing,
+        };
+        frames.par_iter().map(status).collect()
     }
 
     /// Names of a frame's files.
@@ -250,6 +274,6 @@ impl Reel {
     }
 }
 
-/// The lengths and times of a frame's files.
-#[derive(Debug, Clone, PartialEq, Eq)]
+/// The lengths and times of a frame's files; empty where none was looked at.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Glance(Vec<Option<(u64, Option<SystemTime>)>>);

@@ -1,6 +1,7 @@
 //! Shards: the K-th of N parts of the work, the same on every machine.
 
 use std::collections::HashMap;
+use std::hash::Hash;
 use std::str::FromStr;
 
 /// One of N parts.
@@ -26,8 +27,8 @@ impl Shard {
     /// Which frames are this shard's, of a list told by their traces. Traces are dealt out in the
     /// order in which they first stand there, so that frames which share one stay together and
     /// shards take about equally long.
-    pub fn choose<'a>(self, traces: impl Iterator<Item = &'a str>) -> Vec<bool> {
-        let mut numbers: HashMap<&str, usize> = HashMap::new();
+    pub fn choose<T: Hash + Eq>(self, traces: impl Iterator<Item = T>) -> Vec<bool> {
+        let mut numbers: HashMap<T, usize> = HashMap::new();
         let number = |trace| {
             let next = numbers.len();
             *numbers.entry(trace).or_insert(next)

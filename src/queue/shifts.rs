@@ -3,6 +3,7 @@
 use crate::plan;
 use crate::render::spliced;
 use crate::shot::{Effects, Mistake, Mistakes, Shot, Spectra};
+use rayon::prelude::*;
 
 /// Refuses the first frame that calls for the Doppler shift of three numbers, in all of the image
 /// or in a splice. Frames without a velocity are left to those who resolve them.
@@ -14,8 +15,9 @@ pub fn refuse_shifted_numbers(shot: &Shot) -> Result<(), Mistakes> {
         return Ok(());
     }
     let parts = parts(shot);
-    let mistake = (1..=shot.shot.frames)
-        .find_map(|frame| parts.iter().find_map(|part| part.mistake(shot, frame)));
+    let frames = (1..=shot.shot.frames).into_par_iter();
+    let mistake =
+        frames.find_map_first(|frame| parts.iter().find_map(|part| part.mistake(shot, frame)));
     mistake.map_or(Ok(()), |mistake| {
         Err(Mistakes::new(&shot.places, vec![mistake]))
     })

@@ -9,6 +9,7 @@ use crate::scene::{Library, Scene};
 use crate::shade::{Settings, Unresolved, unresolved};
 use crate::shot::{self, Exposure, Mistakes, Shot};
 use crate::trace::Stage;
+use rayon::prelude::*;
 use std::path::{Path, PathBuf};
 
 /// A shot without mistakes, and its files.
@@ -77,8 +78,11 @@ impl Prepared {
     /// All its mistakes.
     pub fn new(shot: Shot, frames: impl Iterator<Item = u32>) -> Result<Self, Mistakes> {
         let library = Library::load(&shot)?;
-        for frame in frames {
-            Scene::check(&shot, &library, frame)?;
+        let frames: Vec<u32> = frames.collect();
+        let wrong = |frame: &u32| Scene::check(&shot, &library, *frame).err();
+        // The first, however many threads look.
+        if let Some(mistakes) = frames.par_iter().find_map_first(wrong) {
+            return Err(mistakes);
         }
         refuse_shifted_numbers(&shot)?;
         Ok(Self { shot, library })

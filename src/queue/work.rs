@@ -12,7 +12,7 @@ use super::record::{blank, stops, warnings};
 use super::shots::{Exposing, Prepared, RenderError};
 use super::write::{is_full, twice, write_atomically};
 use crate::film::Film;
-use crate::plan::{self, MotionError};
+use crate::plan::{self, FrameKey, MotionError};
 use crate::render::{Member, Together, TogetherError, Watch, motion_mistake, render_together};
 use crate::scene::Scene;
 use crate::shot::{Mistakes, Shot};
@@ -26,6 +26,8 @@ use std::time::{Duration, Instant};
 /// A frame that this process alone works on.
 pub(super) struct Ready {
     pub(super) task: Task,
+    /// What the frame is made of.
+    pub(super) key: FrameKey,
     pub(super) claim: Claim,
 }
 
@@ -167,7 +169,7 @@ impl Foreman<'_> {
                     let taken = Taken {
                         exposure_stops: stops(job, ready.task.frame),
                         samples: job.options.samples,
-                        fingerprint: Some(&ready.task.key.fingerprint),
+                        fingerprint: Some(&ready.key.fingerprint),
                     };
                     let made = pictures(shot, ready.task.frame, scene, &stage, &film, taken);
                     (ready, made)
@@ -215,9 +217,10 @@ impl Foreman<'_> {
         let record = Record {
             files: files.clone(),
             warnings: warnings(&made),
+            cut: made.cut,
             seconds,
             shared: u32::try_from(shared).unwrap_or(u32::MAX),
-            ..blank(job, task)
+            ..blank(job, task, &ready.key)
         };
         if let Err(error) = twice(|| ledger.append(&record)) {
             return self.unwritten(job, task, Some(error));
@@ -231,6 +234,7 @@ impl Foreman<'_> {
         let deed = Deed::Rendered {
             because: task.because.clone(),
             seconds: seconds.total(),
+            cut: made.cut,
         };
         self.settle(job, task, deed);
     }

@@ -1,7 +1,7 @@
 //! Films, and the bands of rows that threads write to.
 
 use super::Options;
-use crate::film::{Channels, Film, Layers};
+use crate::film::{Channels, Film, Layers, LeftOut};
 use crate::shot::Layer;
 
 /// Rows of pixels that one thread takes at a time.
@@ -11,6 +11,8 @@ pub(super) const BAND: usize = 8;
 pub(super) struct Part<'a> {
     pub(super) xyz: &'a mut [[f32; 3]],
     pub(super) layers: Vec<(Layer, &'a mut [f32])>,
+    pub(super) channels: Channels,
+    pub(super) left_out: LeftOut,
 }
 
 impl Part<'_> {
@@ -42,6 +44,7 @@ pub(super) fn empty_film(options: &Options, channels: Channels) -> Film {
             emission_time: layer(Layer::EmissionTime, 0.0),
             worldline: layer(Layer::Worldline, -1.0),
         },
+        left_out: LeftOut::default(),
     }
 }
 
@@ -60,12 +63,15 @@ pub(super) fn bands(films: &mut [Film]) -> Vec<Vec<Part<'_>>> {
 
 fn split_bands(film: &mut Film) -> Vec<Part<'_>> {
     let size = film.width as usize * BAND;
+    let channels = film.channels;
     let mut parts: Vec<Part<'_>> = film
         .xyz
         .chunks_mut(size)
         .map(|xyz| Part {
             xyz,
             layers: Vec::new(),
+            channels,
+            left_out: LeftOut::default(),
         })
         .collect();
     let layers = &mut film.layers;

@@ -6,7 +6,7 @@ use super::paint::{Painter, Row};
 use super::profile::Lap;
 use super::view::{View, Views};
 use super::{Options, Profile, Watch};
-use crate::film::Film;
+use crate::film::{Film, LeftOut};
 use crate::trace::Samples;
 use rayon::prelude::*;
 
@@ -20,6 +20,14 @@ pub(super) struct Shares {
     pub(super) shade: f64,
 }
 
+/// What became of a band.
+struct Exposed {
+    /// Of tracing and of shading.
+    seconds: [f64; 2],
+    /// Of each image.
+    left_out: Vec<LeftOut>,
+}
+
 /// Exposes a film for each of the images, whose trees are those of the first.
 pub(super) fn expose(
     images: &[Views<'_>],
@@ -29,7 +37,7 @@ pub(super) fn expose(
     watch: Watch<'_>,
     profile: Option<&Profile>,
 ) -> Result<Shares, Stopped> {
-    let [trace, shade] = bands(films)
+    let bands: Vec<Exposed> = bands(films)
         .into_par_iter()
         .enumerate()
         .map_init(Painter::default, |painter, (band, mut parts)| {
@@ -53,9 +61,21 @@ pub(super) fn expose(
             if let (Some(profile), Some(lap)) = (profile, &painter.lap) {
                 lap.report(profile);
             }
-            Ok(painter.seconds)
+            Ok(Exposed {
+                seconds: painter.seconds,
+                left_out: parts.iter().map(|part| part.left_out).collect(),
+            })
         })
-        .try_reduce(|| [0.0; 2], |a, b| Ok([a[0] + b[0], a[1] + b[1]]))?;
+        .collect::<Result<_, Stopped>>()?;
+    let [mut trace, mut shade] = [0.0; 2];
+    // Band by band, so that the sums are the same on any number of threads.
+    for Exposed { seconds, left_out } in &bands {
+        trace += seconds[0];
+        shade += seconds[1];
+        for (film, part) in films.iter_mut().zip(left_out) {
+            film.left_out.add(part);
+        }
+    }
     let whole = (trace + shade).max(f64::MIN_POSITIVE);
     Ok(Shares {
         trace: trace / whole,

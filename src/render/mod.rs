@@ -11,6 +11,7 @@ use std::ops::Range;
 mod band;
 mod expose;
 mod lab_path;
+mod left_out;
 mod meter;
 mod paint;
 mod profile;
@@ -18,6 +19,8 @@ mod together;
 mod view;
 
 pub use lab_path::LabPath;
+pub use left_out::{Enough, enough_bounces};
+pub(crate) use left_out::{deeper, least};
 pub use meter::{Metered, metered_exposure, motion_mistake};
 pub use profile::{Profile, Seconds};
 pub use together::{Member, Together, TogetherError, Watch, render_together};

@@ -2,6 +2,7 @@
 
 use super::band::Part;
 use super::expose::Stopped;
+use super::left_out::light;
 use super::profile::Lap;
 use super::{LabPath, Options, View, Watch};
 use crate::shade::ShadeScratch;
@@ -199,12 +200,17 @@ impl Painter {
                 }
                 let root = self.trees.roots[ray];
                 let xyz = view.shader().xyz(&self.trees, root, &mut self.shading);
+                if root.cut > 0.0 && view.branches() {
+                    let light = light(part.channels, xyz);
+                    part.left_out.add_cut(root.cut, light);
+                }
                 for (sum, value) in sum.iter_mut().zip(xyz) {
                     *sum += value;
                 }
             }
             if piece.samples.end == count {
                 // What f32 cannot hold is counted when the film is developed.
+                part.left_out.add_rays(count, light(part.channels, sum));
                 part.xyz[row.place(*x)] = sum.map(|v| (v / f64::from(count)) as f32);
             } else {
                 self.sums[image] = sum;

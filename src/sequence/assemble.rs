@@ -11,13 +11,14 @@ use super::ledger;
 use super::output::Output;
 use super::palette::Palette;
 use super::parts::Parts;
-use super::sheet::Sheet;
+use super::sheet::{self, Sheet};
 use super::still::{self, Still, StillError};
 use super::target::Target;
 use super::verify::{is_asked, verify_until};
 use super::video::{self, Video};
 use crate::film::rational_rate;
 use crate::queue::{Reel, ReelError, Status, Stop};
+use crate::shot::Shot;
 use rayon::prelude::*;
 use std::path::PathBuf;
 
@@ -56,7 +57,9 @@ fn quoted(findings: &[Finding]) -> String {
     let shown = findings.iter().take(QUOTED).map(ToString::to_string);
     let mut words: Vec<String> = shown.collect();
     if findings.len() > QUOTED {
-        words.push(format!("and {} more", findings.len() - QUOTED));
+        let rest = findings[QUOTED..].iter();
+        let frames: usize = rest.map(|f| f.frames().count().max(1)).sum();
+        words.push(format!("and {frames} more"));
     }
     words.join("; ")
 }
@@ -98,11 +101,25 @@ pub fn is_finished(reel: &Reel) -> bool {
 fn outstanding(reel: &Reel) -> Vec<Output> {
     let mut outputs = Output::of(&reel.shot().sequence);
     outputs.retain(|output| !ledger::is_fresh(reel, *output));
-    let fresh = |frame: u32| reel.status(frame, &reel.keys.frame(frame)) == Status::Fresh;
-    if !outputs.is_empty() && !(1..=reel.shot().shot.frames).all(fresh) {
+    if !outputs.is_empty() && !is_rendered(reel) {
         outputs.clear();
     }
     outputs
+}
+
+/// Whether all frames are there as they should be.
+fn is_rendered(reel: &Reel) -> bool {
+    let (there, frames) = (reel.there(), reel.shot().shot.frames);
+    let fresh = |frame: &u32| reel.status(*frame, &reel.keys.frame(*frame)) == Status::Fresh;
+    there.len() as u64 == u64::from(frames) && there.par_iter().all(fresh)
+}
+
+/// What a shot asks for and cannot get of images of a size, whatever they show: known before the
+/// first is rendered.
+pub fn foreseen(shot: &Shot, size: [u32; 2]) -> Option<String> {
+    shot.sequence.sheet?;
+    let parts = Parts::new(shot, size);
+    sheet::layout(shot, &parts).err()
 }
 
 fn make(

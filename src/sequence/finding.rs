@@ -1,7 +1,7 @@
 //! What can be wrong with a shot's frames, and the report of all that is.
 
 use serde::Serialize;
-use std::collections::BTreeSet;
+use std::ops::RangeInclusive;
 
 /// What kind of thing is wrong.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
@@ -37,12 +37,26 @@ impl Kind {
 pub struct Finding {
     /// The frame's number; none if the file is no frame's of this shot.
     pub frame: Option<u32>,
+    /// The last of a run of frames of which it is said, the file being that of the first.
+    #[serde(skip)]
+    pub last: Option<u32>,
     /// The file's name in the folder.
     pub file: String,
     /// What kind of thing it is.
     pub kind: Kind,
     /// What exactly.
     pub why: String,
+}
+
+impl Finding {
+    /// The frames of which it is said.
+    pub fn frames(&self) -> RangeInclusive<u32> {
+        match (self.frame, self.last) {
+            (Some(first), last) => first..=last.unwrap_or(first),
+            // Empty.
+            (None, _) => 1..=0,
+        }
+    }
 }
 
 impl std::fmt::Display for Finding {
@@ -63,8 +77,11 @@ pub struct Report {
 impl Report {
     /// How many frames have nothing wrong with them.
     pub fn sound(&self) -> u32 {
-        let unsound: BTreeSet<u32> = self.findings.iter().filter_map(|f| f.frame).collect();
-        self.frames - unsound.len() as u32
+        let mut unsound: Vec<_> = self.findings.iter().map(Finding::frames).collect();
+        unsound.sort_unstable_by_key(|frames| *frames.start());
+        unsound.dedup();
+        let count = unsound.iter().map(|frames| frames.clone().count() as u32);
+        self.frames - count.sum::<u32>()
     }
 
     /// `48 of 49 frames are sound`

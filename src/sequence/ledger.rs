@@ -5,6 +5,7 @@ use super::output::Output;
 use crate::film::decode::open;
 use crate::plan::facts;
 use crate::queue::{Reel, open_plain};
+use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use serde_json::json;
 use std::fs::OpenOptions;
@@ -41,6 +42,7 @@ fn key(reel: &Reel, output: Output) -> String {
         _ => Vec::new(),
     };
     let fingerprints: Vec<String> = frames
+        .into_par_iter()
         .map(|frame| reel.keys.frame(frame).fingerprint)
         .collect();
     let sheet = shot.sequence.sheet.filter(|_| output == Output::Sheet);

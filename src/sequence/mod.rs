@@ -8,6 +8,7 @@ mod apng;
 mod assemble;
 mod draft;
 mod finding;
+mod gaps;
 mod gif;
 mod ledger;
 mod orphans;
@@ -24,7 +25,7 @@ mod target;
 mod verify;
 mod video;
 
-pub use assemble::{AssembleError, assemble, finish, is_finished};
+pub use assemble::{AssembleError, assemble, finish, foreseen, is_finished};
 pub use finding::{Finding, Kind, Report};
 pub use still::{Still, StillError, read};
 pub use verify::verify;

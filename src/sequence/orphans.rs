@@ -19,6 +19,7 @@ pub(super) fn orphans(reel: &Reel) -> Vec<Finding> {
     let orphan = |file: String| {
         Some(Finding {
             frame: None,
+            last: None,
             why: format!("orphan: {}", why(reel, &file)?),
             kind: Kind::Orphan,
             file,

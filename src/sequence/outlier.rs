@@ -73,8 +73,8 @@ fn distance<const N: usize>(terms: [(f32, &Option<Grid>); N]) -> Option<f64> {
 /// A frame that does not fit.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Outlier {
-    /// Its index, from 0.
-    pub(super) index: usize,
+    /// Its number.
+    pub(super) frame: u32,
     /// How far it is from what its neighbours say, 0 to 1.
     pub(super) difference: f64,
     /// How far others around are.
@@ -86,6 +86,8 @@ pub(super) struct Outlier {
 pub(super) struct Differences {
     last: VecDeque<Option<Grid>>,
     count: usize,
+    /// The numbers of the frames, but for those in the midst of long gaps.
+    frames: Vec<u32>,
     /// d of each frame.
     plain: Vec<Option<f64>>,
     /// What interpolation misses in the frame before without this one, and in the frame after.
@@ -94,8 +96,29 @@ pub(super) struct Differences {
 }
 
 impl Differences {
-    /// Takes the next frame; none if it cannot be shown.
-    pub(super) fn push(&mut self, grid: Option<Grid>) {
+    /// Takes frame number `frame`, above those before; no grid if it cannot be shown.
+    pub(super) fn push(&mut self, frame: u32, grid: Option<Grid>) {
+        self.end(frame - 1);
+        self.frames.push(frame);
+        self.take(grid);
+    }
+
+    /// There are no more frames up to number `frame`. What is farther away than any frame is judged by
+    /// need not be counted.
+    pub(super) fn end(&mut self, frame: u32) {
+        const FAR: u32 = *REACH.end() as u32 + 1;
+        let before = self.frames.last().copied().unwrap_or(0);
+        let gap = frame.saturating_sub(before);
+        let near = (before + 1..=frame).take(FAR as usize);
+        let beyond = (gap > FAR).then(|| (frame - (gap - FAR).min(FAR) + 1)..=frame);
+        let numbers: Vec<u32> = near.chain(beyond.into_iter().flatten()).collect();
+        for number in numbers {
+            self.frames.push(number);
+            self.take(None);
+        }
+    }
+
+    fn take(&mut self, grid: Option<Grid>) {
         self.last.push_back(grid);
         if self.last.len() > 4 {
             self.last.pop_front();
@@ -134,7 +157,7 @@ impl Differences {
         let usual = shape.max(self.median_around(index));
         let stands_out = difference > FACTOR * usual + LEVEL;
         stands_out.then_some(Outlier {
-            index,
+            frame: self.frames[index],
             difference,
             usual,
         })
@@ -179,11 +202,11 @@ mod tests {
 
     fn outliers(pictures: &[Vec<u8>]) -> Vec<usize> {
         let mut differences = Differences::default();
-        for rgb8 in pictures {
-            differences.push(Some(Grid::new(rgb8, SIDE)));
+        for (frame, rgb8) in (1..).zip(pictures) {
+            differences.push(frame, Some(Grid::new(rgb8, SIDE)));
         }
         let found = differences.outliers();
-        found.iter().map(|outlier| outlier.index).collect()
+        found.iter().map(|found| found.frame as usize - 1).collect()
     }
 
     /// Discs that move by `path` of a share of the sequence, brighter to the right.
@@ -269,10 +292,37 @@ mod tests {
     #[test]
     fn a_frame_that_cannot_be_shown_is_no_neighbour() {
         let mut differences = Differences::default();
-        for (i, rgb8) in sequence(12, |t| 0.05 * t).iter().enumerate() {
-            differences.push((i != 6).then(|| Grid::new(rgb8, SIDE)));
+        for (frame, rgb8) in (1..).zip(sequence(12, |t| 0.05 * t)) {
+            differences.push(frame, (frame != 7).then(|| Grid::new(&rgb8, SIDE)));
         }
         assert_eq!(differences.outliers(), []);
+    }
+
+    /// The same, whether each frame of a gap is told or none of them is; and a gap costs nothing.
+    #[test]
+    fn gaps_of_any_length_part_what_is_around_them() {
+        for gap in [1, 2, 4, 5, 9, 10, 11, 30, 1_000_000] {
+            let mut pictures = sequence(12, |t| 0.05 * t);
+            pictures[3].fill(0);
+            let [mut told, mut untold] = [Differences::default(), Differences::default()];
+            for (i, rgb8) in (0..).zip(&pictures) {
+                let frame = if i < 6 { i + 1 } else { i + 1 + gap };
+                if i == 6 && gap < 100 {
+                    (7..frame).for_each(|missing| told.push(missing, None));
+                }
+                told.push(frame, Some(Grid::new(rgb8, SIDE)));
+                untold.push(frame, Some(Grid::new(rgb8, SIDE)));
+            }
+            untold.end(2_000_000);
+            let found = untold.outliers();
+            assert_eq!(found, told.outliers(), "{gap}");
+            assert_eq!(
+                found.iter().map(|f| f.frame).collect::<Vec<_>>(),
+                [4],
+                "{gap}"
+            );
+            assert!(untold.frames.len() <= 12 + 4 * 5);
+        }
     }
 
     #[test]

@@ -13,7 +13,7 @@ use crate::film::plot::escaped;
 use crate::film::raster;
 use crate::plan::facts;
 use crate::queue::Reel;
-use crate::shot::LARGEST_SIDE;
+use crate::shot::{LARGEST_SIDE, MOST_COLUMNS, Shot};
 use std::io::{self, Write};
 use std::path::PathBuf;
 
@@ -28,7 +28,7 @@ const CAPTION: u32 = 200;
 
 /// Where everything stands on a sheet, pixels.
 #[derive(Debug, Clone, Copy, PartialEq)]
-struct Layout {
+pub(super) struct Layout {
     columns: u32,
     /// Of a cell, and of the frame in it.
     width: u32,
@@ -85,14 +85,33 @@ impl Layout {
             return Ok(asked);
         }
         let found = (NARROWEST..width).rev().map(layout).find(fits);
+        let other = |columns| fits(&Self::new(frames, columns, NARROWEST, shown, lines));
+        let remedy = || match (1..=MOST_COLUMNS).any(other) {
+            true => format!(
+                "set sequence.sheet.columns nearer to {}",
+                f64::from(frames).sqrt().ceil().min(MOST_COLUMNS.into())
+            ),
+            false => "so it is in any number of columns: leave out sequence.sheet".to_owned(),
+        };
         found.ok_or_else(|| {
             format!(
                 "a sheet of {frames} frames in {columns} columns is larger than {LARGEST_SIDE} \
-                 pixels a side at any width; set sequence.sheet.columns nearer to {}",
-                f64::from(frames).sqrt().ceil().min(100.0)
+                 pixels a side at any width; {}",
+                remedy()
             )
         })
     }
+}
+
+/// The layout of a shot's sheet.
+///
+/// # Errors
+/// Where it cannot be held.
+pub(super) fn layout(shot: &Shot, parts: &Parts) -> Result<Layout, String> {
+    let asked = shot.sequence.sheet.unwrap_or_default();
+    let lines = if parts.iter().count() > 1 { 2 } else { 1 };
+    let (columns, width) = (asked.columns, asked.width);
+    Layout::fitting(shot.shot.frames, columns, width, parts.shown_size(), lines)
 }
 
 /// A sheet in the making.
@@ -116,9 +135,8 @@ impl Sheet {
         let shot = reel.shot();
         let asked = shot.sequence.sheet.unwrap_or_default();
         let frames = shot.shot.frames;
-        let lines = if parts.iter().count() > 1 { 2 } else { 1 };
         let shown = parts.shown_size();
-        let layout = Layout::fitting(frames, asked.columns, asked.width, shown, lines)?;
+        let layout = layout(shot, parts)?;
         if layout.picture[0] < asked.width.min(shown[0]) {
             notes(&format!(
                 "{}: frames are {} pixels wide, not {}, since a sheet has at most {LARGEST_SIDE} a side",
@@ -267,11 +285,15 @@ mod tests {
         assert!(long.width < 320 && long.size[1] <= LARGEST_SIDE, "{long:?}");
         let wider = Layout::new(2000, 6, long.width + 1, [1280, 720], 1);
         assert!(wider.size[1] > LARGEST_SIDE);
-        let why = Layout::fitting(1_000_000, 1, 320, [1280, 720], 1).expect_err("cannot");
+        let why = Layout::fitting(100_000, 1, 320, [1280, 720], 1).expect_err("cannot");
         assert!(
             why.contains("sequence.sheet.columns nearer to 100"),
             "{why}"
         );
+        Layout::fitting(100_000, 100, 320, [1280, 720], 1).expect("as it says");
+        // 100 columns of cells 28 pixels high are 280 000 pixels high.
+        let why = Layout::fitting(1_000_000, 1, 320, [1280, 720], 1).expect_err("cannot");
+        assert!(why.contains("leave out sequence.sheet"), "{why}");
     }
 
     #[test]

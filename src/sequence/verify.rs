@@ -5,6 +5,7 @@
 //! pictures as there are threads.
 
 use super::finding::{Finding, Kind, Report};
+use super::gaps::{Run, SINGLY, count, gaps};
 use super::orphans::orphans;
 use super::outlier::{Differences, Grid, Outlier};
 use super::still::{decode_as, shown_extension};
@@ -34,20 +35,22 @@ pub fn verify(reel: &Reel) -> Report {
 /// The same, unless asked to stop.
 pub(super) fn verify_until(reel: &Reel, stop: &Stop) -> Option<Report> {
     let frames = reel.shot().shot.frames;
-    let mut findings = Vec::new();
+    let there: Vec<u32> = reel.there().into_iter().collect();
+    let gaps = gaps(there.iter().copied(), frames);
+    let mut findings: Vec<Finding> = gaps.iter().flat_map(|gap| missing(reel, gap)).collect();
     let mut differences = Differences::default();
-    let numbers: Vec<u32> = (1..=frames).collect();
-    for some in numbers.chunks(AT_ONCE) {
+    for some in there.chunks(AT_ONCE) {
         let looked: Vec<_> = some
             .par_iter()
             .map(|frame| (!is_asked(stop)).then(|| look(reel, *frame)))
             .collect();
-        for looked in looked {
+        for (frame, looked) in some.iter().zip(looked) {
             let (found, grid) = looked?;
             findings.extend(found);
-            differences.push(grid);
+            differences.push(*frame, grid);
         }
     }
+    differences.end(frames);
     let outliers = differences.outliers().into_iter();
     findings.extend(outliers.filter_map(|outlier| tell(reel, &outlier)));
     findings.sort_by_key(|finding| finding.frame);
@@ -58,6 +61,25 @@ pub(super) fn verify_until(reel: &Reel, stop: &Stop) -> Option<Report> {
 /// Whether somebody asked to stop.
 pub(super) fn is_asked(stop: &Stop) -> bool {
     stop.asked().load(Ordering::Relaxed)
+}
+
+/// The findings of frames of which nothing is there: of a long run one.
+fn missing(reel: &Reel, gap: &Run) -> Vec<Finding> {
+    let file = |frame: u32| reel.files(frame).into_iter().next().unwrap_or_default();
+    let one = |frame| finding(frame, file(frame), Kind::Missing, "missing".to_owned());
+    let count = count(gap);
+    if count <= SINGLY {
+        return gap.clone().map(one).collect();
+    }
+    let why = format!(
+        "missing, as are all up to {}: {count} frames",
+        file(*gap.end())
+    );
+    vec![Finding {
+        last: Some(*gap.end()),
+        why,
+        ..one(*gap.start())
+    }]
 }
 
 /// What is wrong with one frame by itself; and its grid, if it can be shown.
@@ -73,9 +95,8 @@ fn look(reel: &Reel, frame: u32) -> (Vec<Finding>, Option<Grid>) {
     let mut findings = Vec::new();
     let mut grid = None;
     if status == Status::Missing {
-        let file = reel.files(frame).into_iter().next().unwrap_or_default();
-        findings.push(finding(frame, file, Kind::Missing, "missing".to_owned()));
-        return (findings, grid);
+        // Gone in this moment.
+        return (missing(reel, &(frame..=frame)), grid);
     }
     let shown = shown_extension(reel.shot());
     for file in reel.files(frame) {
@@ -173,6 +194,7 @@ fn kind_of(fault: &Fault) -> Kind {
 fn finding(frame: u32, file: String, kind: Kind, why: String) -> Finding {
     Finding {
         frame: Some(frame),
+        last: None,
         file,
         kind,
         why,
@@ -181,7 +203,7 @@ fn finding(frame: u32, file: String, kind: Kind, why: String) -> Finding {
 
 /// The finding of an outlier, unless the shot itself explains it.
 fn tell(reel: &Reel, outlier: &Outlier) -> Option<Finding> {
-    let frame = outlier.index as u32 + 1;
+    let frame = outlier.frame;
     // An end is judged by the frames beside it.
     let middle = frame.clamp(2, reel.shot().shot.frames.saturating_sub(1).max(2));
     if explained([middle - 1, middle, middle + 1].map(|frame| reel.keys.frame(frame))) {

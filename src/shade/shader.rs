@@ -6,6 +6,7 @@ use super::curves::CurveShader;
 use super::lines::LineShader;
 use super::passage::Passages;
 use super::radiance::Radiance;
+use super::received::finite;
 use super::rgb::RgbShader;
 use crate::scene::Scene;
 use crate::shot::{self, SensorColor, Spectra};
@@ -66,15 +67,16 @@ impl Shader {
     }
 
     /// What the camera receives along a ray, in the sensor's channels: XYZ (cd/m²), or the totals of
-    /// three bands (W·m⁻²·sr⁻¹).
+    /// three bands (W·m⁻²·sr⁻¹); finite.
     #[inline]
     pub fn xyz(&self, trees: &ShadeTrees, root: Root, scratch: &mut ShadeScratch) -> [f64; 3] {
-        match &self.held {
+        let channels = match &self.held {
             Held::Curves(curves) => curves.xyz(trees, root, scratch),
             Held::Lines(lines) => lines.xyz(trees, root, &mut scratch.lines),
             Held::Rgb(rgb) => rgb.xyz(trees, root, &mut scratch.rgb),
             Held::Exact(curves, quadrature) => curves.exact(quadrature, trees, root),
-        }
+        };
+        channels.map(finite)
     }
 
     /// Spectral radiance that the camera receives along a ray, at [`Shader::wavelengths_nm`]; none

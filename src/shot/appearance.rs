@@ -27,10 +27,9 @@ pub struct Material {
     pub thermal: Option<Thermal>,
 }
 
-impl Material {
-    /// The spectra of its terms, each with its key below the material's; all that there are, or
-    /// a file that one names would not be read.
-    pub fn spectra(&self) -> impl Iterator<Item = (&'static str, &Option<SpectrumValue>)> {
+/// The spectra of a material's terms, with their keys, borrowed one way or the other.
+macro_rules! of_terms {
+    ($material:ident, $borrowed:ident, $($by:tt)+) => {{
         let Self {
             diffuse,
             highlight,
@@ -38,26 +37,32 @@ impl Material {
             refraction,
             emission,
             thermal,
-        } = self;
+        } = $material;
         [
-            ("diffuse.spectrum", diffuse.as_ref().map(|t| &t.spectrum)),
-            (
-                "highlight.spectrum",
-                highlight.as_ref().map(|t| &t.spectrum),
-            ),
-            ("mirror.spectrum", mirror.as_ref().map(|t| &t.spectrum)),
-            (
-                "refraction.spectrum",
-                refraction.as_ref().map(|t| &t.spectrum),
-            ),
-            ("emission.spectrum", emission.as_ref().map(|t| &t.spectrum)),
-            (
-                "thermal.emissivity",
-                thermal.as_ref().map(|t| &t.emissivity),
-            ),
+            ("diffuse.spectrum", diffuse.$borrowed().map(|t| $($by)+ t.spectrum)),
+            ("highlight.spectrum", highlight.$borrowed().map(|t| $($by)+ t.spectrum)),
+            ("mirror.spectrum", mirror.$borrowed().map(|t| $($by)+ t.spectrum)),
+            ("refraction.spectrum", refraction.$borrowed().map(|t| $($by)+ t.spectrum)),
+            ("emission.spectrum", emission.$borrowed().map(|t| $($by)+ t.spectrum)),
+            ("thermal.emissivity", thermal.$borrowed().map(|t| $($by)+ t.emissivity)),
         ]
         .into_iter()
         .filter_map(|(key, value)| Some((key, value?)))
+    }};
+}
+
+impl Material {
+    /// The spectra of its terms, each with its key below the material's; all that there are, or
+    /// a file that one names would not be read.
+    pub fn spectra(&self) -> impl Iterator<Item = (&'static str, &Option<SpectrumValue>)> {
+        of_terms!(self, as_ref, &)
+    }
+
+    /// The same, to be changed.
+    pub(super) fn spectra_mut(
+        &mut self,
+    ) -> impl Iterator<Item = (&'static str, &mut Option<SpectrumValue>)> {
+        of_terms!(self, as_mut, &mut)
     }
 }
 

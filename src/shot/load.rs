@@ -6,7 +6,7 @@
 use super::mistake::{Mistake, Mistakes, Places};
 use super::text::{SAVE_AS_UTF8, text_of};
 use super::walk::{MISSING, Walk, spans};
-use super::{Shot, check};
+use super::{Shot, check, file_names};
 use std::ffi::OsStr;
 use std::fs::File;
 use std::io::{self, Read};
@@ -96,6 +96,7 @@ pub fn parse(source: &str, path: &Path) -> Result<Shot, Mistakes> {
         Ok(mut shot) => {
             path.clone_into(&mut shot.path);
             shot.places = places.clone();
+            shot.settle_file_names();
             let mistakes = check::check(&shot, walk);
             if mistakes.is_empty() {
                 Ok(shot)
@@ -117,8 +118,22 @@ fn syntax_mistake(error: &toml::de::Error, source: &str) -> Mistake {
         span: error.span().filter(|span| span.start <= source.len()),
         message: error.message().lines().collect::<Vec<_>>().join(", "),
         label: String::new(),
-        help: None,
+        help: escape_help(error, source),
     }
+}
+
+/// What to do about a path with `\` in double quotes, if that is what TOML stumbles over.
+fn escape_help(error: &toml::de::Error, source: &str) -> Option<String> {
+    const OF_ESCAPES: [&str; 3] = [
+        "missing escaped value",
+        "too few unicode value digits",
+        "invalid value, expected unicode",
+    ];
+    let span = error.span()?;
+    let is_path = source.get(whole_lines(&span, source))?.contains('\\');
+    let message = error.message().lines().collect::<Vec<_>>().join(", ");
+    let of_escape = OF_ESCAPES.iter().any(|begin| message.starts_with(begin));
+    (is_path && of_escape).then(|| file_names::ESCAPES.to_owned())
 }
 
 /// Syntax errors and those other mistakes that cannot be their consequence.
@@ -176,7 +191,7 @@ mod tests {
             (1, 24.0, 1.0)
         );
         assert_eq!((shot.image.size, shot.image.samples), ([1280, 720], 16));
-        assert_eq!((shot.effects.bounces, shot.accuracy.wavelengths), (4, 84));
+        assert_eq!((shot.effects.bounces, shot.accuracy.wavelengths), (8, 84));
         assert_eq!(shot.output.formats, [Format::Png]);
         assert!(matches!(shot.sensor.exposure, Exposure::Auto(_)));
         assert_eq!(shot.worldline["alpha"].at, Track::Constant(0.0));

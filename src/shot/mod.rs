@@ -16,6 +16,7 @@ mod body;
 mod camera;
 mod check;
 mod diagnostics;
+mod file_names;
 mod gltf_json;
 mod later;
 mod light;
@@ -57,14 +58,15 @@ pub use obj_lines::{
     OBJ_KEYWORDS, before_comment, each_line, each_obj_line, is_utf16, keyword_and_rest,
 };
 pub use schema::schema;
-pub use sequence::{Corner, Inset, InsetPixel, PixelName, Sequence, Sheet, Video};
+pub use sequence::{Corner, Inset, InsetPixel, MOST_COLUMNS, PixelName, Sequence, Sheet, Video};
 pub use settings::{
     AutoExposure, Beaming, Clock, Depth, Effects, Exposure, Filter, Format, Image, LARGEST_SIDE,
-    Layer, Output, Sensor, SensorColor, Splice, SpliceEffects, Switch, Tone,
+    Layer, MOST_BOUNCES, Output, Sensor, SensorColor, Splice, SpliceEffects, Switch, Tone,
 };
 pub use sky::{
     Background, MOST_STARS, RandomStars, STAR_KELVIN, STAR_MAGNITUDE, StarCatalogue, Stars,
 };
+pub use still::Moving;
 pub use text::{SAVE_AS_UTF8, TextError, text_of};
 pub use track::{Blend, Ease, Track};
 

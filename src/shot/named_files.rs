@@ -1,5 +1,6 @@
 //! The files that a shot names.
 
+use super::file_names;
 use super::{Shot, SpectrumTable, SpectrumValue, Stars};
 use std::collections::HashSet;
 use std::path::{Path, PathBuf};
@@ -10,6 +11,38 @@ impl Shot {
         self.path
             .parent()
             .map_or_else(|| file.to_owned(), |folder| folder.join(file))
+    }
+
+    /// Takes the names of files as other systems write them for what they mean here.
+    pub(super) fn settle_file_names(&mut self) {
+        let folder = self.path.parent().unwrap_or(Path::new("")).to_owned();
+        for file in self.files_mut() {
+            if let Some(settled) = file_names::settled(&folder, file) {
+                *file = settled;
+            }
+        }
+    }
+
+    /// The name of every file, used or not.
+    fn files_mut(&mut self) -> Vec<&mut PathBuf> {
+        let sky = &mut self.background;
+        let terms = self.material.values_mut().flat_map(|m| m.spectra_mut());
+        let lamps = self.light.iter_mut().map(|light| &mut light.spectrum);
+        let values = terms.map(|(_, value)| value).chain(lamps);
+        let inline = values.chain([&mut sky.spectrum]);
+        let inline = inline.filter_map(|value| match value {
+            Some(SpectrumValue::Table(table)) => Some(&mut **table),
+            Some(SpectrumValue::Number(_) | SpectrumValue::Name(_)) | None => None,
+        });
+        let tables = inline.chain(self.spectrum.values_mut());
+        let spectra = tables.filter_map(|table| table.file.as_mut());
+        let stars = match &mut sky.stars {
+            Some(Stars::Catalogue(stars)) => Some(&mut stars.file),
+            Some(Stars::Random(_)) | None => None,
+        };
+        let models = self.model.iter_mut().map(|model| &mut model.file);
+        let of_sky = sky.image.as_mut().into_iter().chain(stars);
+        models.chain(spectra).chain(of_sky).collect()
     }
 
     /// The names of spectra that materials, lamps and the background use.

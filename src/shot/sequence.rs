@@ -34,12 +34,15 @@ impl Default for Sequence {
     }
 }
 
+/// Most frames in a row of a sheet.
+pub const MOST_COLUMNS: u32 = 100;
+
 /// A contact sheet.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Sheet {
     /// Frames in a row, from 1 to 100. Default: 6.
-    #[schemars(range(min = 1, max = 100))]
+    #[schemars(range(min = 1, max = MOST_COLUMNS))]
     pub columns: u32,
     /// Width of a frame on the sheet, pixels, from 16 to 4096. Default: 320.
     #[schemars(range(min = 16, max = 4096))]

@@ -5,6 +5,9 @@ use super::Track;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+/// Most surfaces that light may be followed by.
+pub const MOST_BOUNCES: u32 = 64;
+
 /// Most pixels on a side of an image.
 pub const LARGEST_SIDE: u32 = 32768;
 
@@ -93,8 +96,8 @@ pub struct Effects {
     pub thermal: Switch,
     /// Whether surfaces keep light from each other. Default: "auto".
     pub shadows: Switch,
-    /// Depth of mirror and refraction, where a material has them: how many surfaces light may have been reflected or refracted by. 0 turns both off. Default: 4.
-    #[schemars(range(max = 64))]
+    /// Depth of mirror and refraction, where a material has them: how many surfaces light may have been reflected or refracted by. 0 turns both off. `render` says where more would show. Default: 8.
+    #[schemars(range(max = MOST_BOUNCES))]
     pub bounces: u32,
 }
 
@@ -106,7 +109,7 @@ impl Default for Effects {
             beaming: Beaming::Full,
             thermal: Switch::Auto,
             shadows: Switch::Auto,
-            bounces: 4,
+            bounces: 8,
         }
     }
 }
@@ -159,7 +162,7 @@ pub struct SpliceEffects {
     /// Whether surfaces keep light from each other. Default: the shot's.
     pub shadows: Option<Switch>,
     /// Depth of mirror and refraction. Default: the shot's.
-    #[schemars(range(max = 64))]
+    #[schemars(range(max = MOST_BOUNCES))]
     pub bounces: Option<u32>,
 }
 

@@ -25,6 +25,53 @@ impl Shot {
         still
     }
 
+    /// Which of its sections move.
+    pub fn moving(&self) -> Moving {
+        Moving {
+            time: self.shot.time.moves(),
+            camera: self.camera.moves(),
+            worldlines: self.worldline.moves(),
+            models: self.model.moves(),
+            materials: self.material.moves(),
+            spectra: self.spectrum.moves(),
+            lights: self.light.moves(),
+            background: self.background.moves(),
+        }
+    }
+
+    /// Takes this shot of one frame of `shot` to another one, as far as the sections that `move` go:
+    /// exposure stays.
+    pub fn move_to(&mut self, frame: u32, shot: &Self, moving: Moving) {
+        let when = When {
+            frame,
+            frames: shot.shot.frames,
+        };
+        if moving.time {
+            self.shot.time = shot.shot.time.at_frame(when);
+        }
+        if moving.camera {
+            self.camera = shot.camera.at_frame(when);
+        }
+        if moving.worldlines {
+            self.worldline = shot.worldline.at_frame(when);
+        }
+        if moving.models {
+            self.model = shot.model.at_frame(when);
+        }
+        if moving.materials {
+            self.material = shot.material.at_frame(when);
+        }
+        if moving.spectra {
+            self.spectrum = shot.spectrum.at_frame(when);
+        }
+        if moving.lights {
+            self.light = shot.light.at_frame(when);
+        }
+        if moving.background {
+            self.background = shot.background.at_frame(when);
+        }
+    }
+
     /// The shot as its author might write it: TOML without what is at its default, which reads as
     /// an equal shot.
     pub fn to_toml(&self) -> String {
@@ -39,6 +86,27 @@ impl Shot {
         leave_out_null(&mut value);
         value
     }
+}
+
+/// Which sections of a shot have a value that is not the same in all frames.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Moving {
+    /// `shot.time`
+    pub time: bool,
+    /// `[camera]`
+    pub camera: bool,
+    /// `[worldline]`
+    pub worldlines: bool,
+    /// `[[model]]`
+    pub models: bool,
+    /// `[material]`
+    pub materials: bool,
+    /// `[spectrum]`
+    pub spectra: bool,
+    /// `[[light]]`
+    pub lights: bool,
+    /// `[background]`
+    pub background: bool,
 }
 
 fn leave_out_null(value: &mut Value) {
@@ -94,11 +162,18 @@ trait AtFrame {
     /// The same with every track constant.
     #[must_use]
     fn at_frame(&self, when: When) -> Self;
+
+    /// Whether that is not the same in all frames.
+    fn moves(&self) -> bool;
 }
 
 impl<T: Blend> AtFrame for Track<T> {
     fn at_frame(&self, When { frame, frames }: When) -> Self {
         Self::Constant(self.at(frame, frames))
+    }
+
+    fn moves(&self) -> bool {
+        !self.is_constant()
     }
 }
 
@@ -106,17 +181,29 @@ impl<T: AtFrame> AtFrame for Option<T> {
     fn at_frame(&self, when: When) -> Self {
         self.as_ref().map(|value| value.at_frame(when))
     }
+
+    fn moves(&self) -> bool {
+        self.as_ref().is_some_and(AtFrame::moves)
+    }
 }
 
 impl<T: AtFrame> AtFrame for Box<T> {
     fn at_frame(&self, when: When) -> Self {
         Self::new(self.as_ref().at_frame(when))
     }
+
+    fn moves(&self) -> bool {
+        self.as_ref().moves()
+    }
 }
 
 impl<T: AtFrame> AtFrame for Vec<T> {
     fn at_frame(&self, when: When) -> Self {
         self.iter().map(|value| value.at_frame(when)).collect()
+    }
+
+    fn moves(&self) -> bool {
+        self.iter().any(AtFrame::moves)
     }
 }
 
@@ -125,11 +212,19 @@ impl<T: AtFrame> AtFrame for IndexMap<String, T> {
         let entry = |(name, value): (&String, &T)| (name.clone(), value.at_frame(when));
         self.iter().map(entry).collect()
     }
+
+    fn moves(&self) -> bool {
+        self.values().any(AtFrame::moves)
+    }
 }
 
 impl<T: Copy, const N: usize> AtFrame for [T; N] {
     fn at_frame(&self, _: When) -> Self {
         *self
+    }
+
+    fn moves(&self) -> bool {
+        false
     }
 }
 
@@ -139,6 +234,10 @@ macro_rules! fixed {
         impl AtFrame for $type {
             fn at_frame(&self, _: When) -> Self {
                 self.clone()
+            }
+
+            fn moves(&self) -> bool {
+                false
             }
         }
     )*};
@@ -151,6 +250,10 @@ macro_rules! tables {
             fn at_frame(&self, when: When) -> Self {
                 Self { $($key: self.$key.at_frame(when)),* }
             }
+
+            fn moves(&self) -> bool {
+                false $(|| self.$key.moves())*
+            }
         }
     )*};
 }
@@ -162,6 +265,12 @@ macro_rules! forms {
             fn at_frame(&self, when: When) -> Self {
                 match self {
                     $(Self::$form(value) => Self::$form(value.at_frame(when)),)*
+                }
+            }
+
+            fn moves(&self) -> bool {
+                match self {
+                    $(Self::$form(value) => value.moves(),)*
                 }
             }
         }

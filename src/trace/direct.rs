@@ -10,6 +10,11 @@ use crate::scene::{Light, LightShape, Material};
 use glam::DVec3;
 use std::f64::consts::PI;
 
+/// Nearest distance of a lamp that is told apart, m: the Planck length. Irradiance, I cos θ/r²,
+/// grows without bound towards a point of light, and beyond all numbers below 1e-154 m; nearer than
+/// this it grows no more. A picture cannot hold it long before: that is counted when it is developed.
+const NEAREST: f64 = 1.6e-35;
+
 /// Light that arrives at a surface event.
 struct Incoming {
     /// Unit direction of travel in the lamp's rest frame and in the surface's.
@@ -19,7 +24,7 @@ struct Incoming {
     doppler: f64,
     /// Length of the light path in the lamp's rest frame; infinite for a sun.
     distance: f64,
-    /// share / r², or share for a sun.
+    /// share / r², r at least [`NEAREST`]; or share for a sun.
     falloff: f64,
 }
 
@@ -72,7 +77,8 @@ fn light_on(
     })
 }
 
-/// The lamp's light at the surface event, or None where the lamp is at that very event.
+/// The lamp's light at the surface event, or None where the lamp is at that very event: there its
+/// light has no direction and the lamp is on neither side of the surface, so it lights nothing.
 fn incoming(tracer: &Tracer<'_>, surface: &Place, light: &Light) -> Option<Incoming> {
     let spacetime = tracer.spacetime;
     let (in_lamp, distance, spread) = match light.shape {
@@ -84,7 +90,7 @@ fn incoming(tracer: &Tracer<'_>, surface: &Place, light: &Light) -> Option<Incom
             (
                 arrival.direction,
                 arrival.distance,
-                arrival.distance * arrival.distance,
+                arrival.distance.max(NEAREST).powi(2),
             )
         }
         LightShape::Sun { direction } => (direction, f64::INFINITY, 1.0),

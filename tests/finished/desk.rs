@@ -263,6 +263,7 @@ pub(crate) fn record(reel: &Reel) {
             exposure: 0.0,
             seconds: Seconds::default(),
             warnings: Vec::new(),
+            cut: 0.0,
             memory_mib: None,
             threads: 1,
             host: "desk".to_owned(),

@@ -106,11 +106,11 @@ fn drawing(views: &[View<'_>], scale: &Scale) -> Markup {
                     @let y = hundredths(HEIGHT - scale.height(tick * scale.unit));
                     line x1="0" x2=(width) y1=(y) y2=(y) { }
                 }
-                @for view in views { (bar(view, scale)) }
+                @for (place, view) in views.iter().enumerate() { (bar(place, view, scale)) }
             }
             div.axis aria-hidden="true" {
-                @for frame in labels(views.len()) {
-                    span style={ "left:" (hundredths((frame as f64 - 0.5) / views.len() as f64 * 100.0)) "%" } { (frame) }
+                @for place in labels(views.len()) {
+                    span style={ "left:" (hundredths((place as f64 - 0.5) / views.len() as f64 * 100.0)) "%" } { (views[place - 1].frame) }
                 }
             }
             figcaption { "Frames, first to last. A bar leads to its frame." }
@@ -118,8 +118,8 @@ fn drawing(views: &[View<'_>], scale: &Scale) -> Markup {
     }
 }
 
-fn bar(view: &View<'_>, scale: &Scale) -> Markup {
-    let x = f64::from(view.frame - 1) * PITCH;
+fn bar(place: usize, view: &View<'_>, scale: &Scale) -> Markup {
+    let x = place as f64 * PITCH;
     html! {
         a href={ "#frame-" (view.frame) } data-frame=(view.frame) tabindex="-1" {
             title { (tip(view)) }
@@ -161,7 +161,7 @@ fn tip(view: &View<'_>) -> String {
     }
 }
 
-/// Frames that are named below the drawing: the first, and the multiples of 1, 2 or 5 times a power
+/// Bars that are named below the drawing, from 1: the first, and the multiples of 1, 2 or 5 times a power
 /// of ten, of which there are at most ten.
 fn labels(frames: usize) -> Vec<usize> {
     let steps = (0..).flat_map(|power| [1, 2, 5].map(|digit| digit * 10_usize.pow(power)));

@@ -1,15 +1,18 @@
 //! The frames side by side.
 
-use super::view::View;
+use super::view::{Contents, Entry, View, span};
 use maud::{Markup, html};
 
 /// The section. Each picture leads to its row of the table, and with scripts to the player.
-pub(super) fn section(views: &[View<'_>]) -> Markup {
+pub(super) fn section(contents: &Contents<'_>) -> Markup {
     html! {
         section aria-labelledby="all" {
             h2 #all { "All frames" }
             ol #grid {
-                @for view in views { (thumbnail(view)) }
+                @for entry in contents.entries() { @match entry {
+                    Entry::Frame(view) => (thumbnail(view)),
+                    Entry::Gap(run) => li.gap { "frames " (span(run)) ": missing" },
+                } }
             }
         }
     }

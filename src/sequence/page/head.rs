@@ -1,10 +1,11 @@
 //! What stands above the frames: which shot, what became of it, and what is wrong.
 
 use super::super::output::OUTPUTS;
-use super::view::{View, beside};
+use super::view::{Contents, Entry, View, beside, span};
 use crate::film::plot::STYLE;
 use crate::film::plot::quantity::{bytes, time};
-use crate::queue::{Record, Reel, list_of};
+use crate::queue::{Record, Reel};
+use crate::sequence::gaps::{Run, count};
 use indexmap::IndexMap;
 use maud::{Markup, PreEscaped, html};
 
@@ -31,13 +32,14 @@ pub(super) fn head(reel: &Reel) -> Markup {
 }
 
 /// Warnings first, then the counts, and links to what was assembled.
-pub(super) fn opening(reel: &Reel, views: &[View<'_>]) -> Markup {
+pub(super) fn opening(reel: &Reel, contents: &Contents<'_>) -> Markup {
+    let views = &contents.views;
     html! {
         header {
             p.kicker { "Frames" }
             h1 { (title(reel)) }
-            (warnings(views))
-            p #counts { strong { (counts(views)) } }
+            (warnings(contents))
+            p #counts { strong { (counts(contents)) } }
             p.facts { (shot_file(reel)) (when(views)) (seconds(views)) (machines(views)) }
             (assembled(reel))
         }
@@ -45,18 +47,24 @@ pub(super) fn opening(reel: &Reel, views: &[View<'_>]) -> Markup {
 }
 
 /// What is amiss, and what the frames' records warn of, each with its frames.
-fn warnings(views: &[View<'_>]) -> Markup {
-    let mut frames: IndexMap<String, Vec<u32>> = IndexMap::new();
-    for view in views {
-        if view.state.is_amiss() {
-            let because = view.state.because().map(|b| format!(": {b}"));
-            let words = format!("{}{}", view.state.word(), because.unwrap_or_default());
-            frames.entry(words).or_default().push(view.frame);
-        }
+fn warnings(contents: &Contents<'_>) -> Markup {
+    let mut frames: IndexMap<String, Vec<Run>> = IndexMap::new();
+    for entry in contents.entries() {
+        let (words, run) = match entry {
+            Entry::Gap(run) => ("missing".to_owned(), run.clone()),
+            Entry::Frame(view) if view.state.is_amiss() => {
+                let because = view.state.because().map(|b| format!(": {b}"));
+                let words = format!("{}{}", view.state.word(), because.unwrap_or_default());
+                (words, view.frame..=view.frame)
+            }
+            Entry::Frame(_) => continue,
+        };
+        add(frames.entry(words).or_default(), run);
     }
-    for view in views {
+    for view in &contents.views {
         for warning in view.record.iter().flat_map(|record| &record.warnings) {
-            frames.entry(warning.clone()).or_default().push(view.frame);
+            let run = view.frame..=view.frame;
+            add(frames.entry(warning.clone()).or_default(), run);
         }
     }
     html! {
@@ -72,13 +80,24 @@ fn warnings(views: &[View<'_>]) -> Markup {
     }
 }
 
+/// Adds a run behind others.
+fn add(runs: &mut Vec<Run>, run: Run) {
+    match runs.last_mut() {
+        Some(last) if last.end() + 1 == *run.start() => *last = *last.start()..=*run.end(),
+        _ => runs.push(run),
+    }
+}
+
 /// `72 frames: 60 rendered in this run, 12 kept.`
-fn counts(views: &[View<'_>]) -> String {
+fn counts(contents: &Contents<'_>) -> String {
+    let gaps: u32 = contents.gaps.iter().map(count).sum();
     let mut counts: IndexMap<&str, usize> = IndexMap::new();
     for word in [
         "rendered", "kept", "finished", "stale", "missing", "broken", "failed",
     ] {
-        let count = views.iter().filter(|v| v.state.word() == word).count();
+        let shown = contents.views.iter().filter(|v| v.state.word() == word);
+        let missing = if word == "missing" { gaps } else { 0 };
+        let count = shown.count() + missing as usize;
         // That nothing is missing is what one wants to read.
         if count > 0 || matches!(word, "missing" | "failed") {
             counts.insert(word, count);
@@ -91,8 +110,8 @@ fn counts(views: &[View<'_>]) -> String {
             word => format!("{count} {word}"),
         })
         .collect();
-    let plural = if views.len() == 1 { "" } else { "s" };
-    format!("{} frame{plural}: {}.", views.len(), words.join(", "))
+    let plural = if contents.frames == 1 { "" } else { "s" };
+    format!("{} frame{plural}: {}.", contents.frames, words.join(", "))
 }
 
 fn shot_file(reel: &Reel) -> String {
@@ -167,10 +186,13 @@ fn assembled(reel: &Reel) -> Markup {
 }
 
 /// `Frames 3, 7–9`
-fn named(frames: &[u32]) -> String {
-    let list = list_of(frames).replace('-', "–").replace(',', ", ");
-    let noun = if frames.len() == 1 { "Frame" } else { "Frames" };
-    format!("{noun} {list}")
+fn named(runs: &[Run]) -> String {
+    let list: Vec<String> = runs.iter().map(span).collect();
+    let noun = match runs {
+        [only] if count(only) == 1 => "Frame",
+        _ => "Frames",
+    };
+    format!("{noun} {}", list.join(", "))
 }
 
 #[cfg(test)]
@@ -184,7 +206,11 @@ mod tests {
             (&[3, 4], "Frames 3–4"),
             (&[1, 3, 4, 5, 9], "Frames 1, 3–5, 9"),
         ] {
-            assert_eq!(named(frames), words);
+            let mut runs = Vec::new();
+            frames
+                .iter()
+                .for_each(|frame| add(&mut runs, *frame..=*frame));
+            assert_eq!(named(&runs), words);
         }
     }
 }

@@ -2,24 +2,25 @@
 
 use super::super::output::OUTPUTS;
 use super::run::{Outcome, RunFacts};
-use super::view::fitting;
+use super::view::{Found, fitting};
 use crate::plan::facts;
 use crate::queue::{Reel, Status};
 use serde_json::{Value, json};
 use std::fs;
 
 /// Raised whenever the same frames make another page than before.
-const EPOCH: u32 = 1;
+const EPOCH: u32 = 2;
 
 /// Hash of all that a page is made of but the pixels, which the frames' fingerprints stand for, and
 /// whether a run rendered or kept what is there.
-pub(super) fn key(reel: &Reel, run: &RunFacts, found: &[Status]) -> String {
+pub(super) fn key(reel: &Reel, run: &RunFacts, found: &Found) -> String {
     let shot = reel.shot();
     let assembled = OUTPUTS.iter().map(|output| {
         let file = reel.folder.join(reel.names.assembled(output.suffix()));
         fs::metadata(file).ok().map(|file| file.len())
     });
-    let frames = (1..).zip(found).map(|(frame, status)| {
+    let frames = found.frames.iter().map(|(frame, status)| {
+        let frame = *frame;
         let failed = match run.outcomes.get(&frame) {
             Some(Outcome::Failed { because }) => Some(because),
             _ => None,
@@ -47,6 +48,7 @@ pub(super) fn key(reel: &Reel, run: &RunFacts, found: &[Status]) -> String {
         reel.keys.picture().samples,
         assembled.collect::<Vec<_>>(),
         frames.collect::<Vec<_>>(),
+        [json!(shot.shot.frames), json!(found.gaps)],
     ]);
     blake3::hash(parts.to_string().as_bytes())
         .to_hex()

@@ -1,5 +1,8 @@
 //! The page about a shot's frames, `index.html` beside them: what the morning finds.
 //!
+//! It tells of what is there, and of what a run was to make: of long runs of frames that nobody made it
+//! has a line, so that two frames of a million make a page of two.
+//!
 //! One file that asks for nothing else: small pictures of all frames stand in it as JPEG, drawings as
 //! SVG, and its script only moves what is there. It links to what lies beside it, and shows the
 //! full picture of a frame where that can be read. Without scripts it is a page of thumbnails and a
@@ -22,7 +25,7 @@ use crate::queue::{Reel, Stop, write_atomically};
 use maud::{DOCTYPE, html};
 use std::io;
 use std::path::PathBuf;
-use view::{View, statuses};
+use view::{Contents, find};
 
 /// The page's file name.
 pub const PAGE: &str = "index.html";
@@ -33,13 +36,13 @@ pub const PAGE: &str = "index.html";
 /// # Errors
 /// When it cannot be written. What is wrong with frames stands on the page.
 pub fn write(reel: &Reel, run: &RunFacts, stop: &Stop) -> io::Result<Option<PathBuf>> {
-    let found = statuses(reel);
+    let found = find(reel, run);
     let key = key::key(reel, run, &found);
-    let Some(views) = View::all(reel, run, &found, stop) else {
+    let Some(contents) = Contents::new(reel, run, found, stop) else {
         return Ok(None);
     };
     let path = reel.folder.join(PAGE);
-    write_atomically(&path, text(reel, &views).as_bytes())?;
+    write_atomically(&path, text(reel, &contents).as_bytes())?;
     // A page that is not remembered is only written again.
     let _unremembered = ledger::remember(reel, PAGE, key);
     Ok(Some(path))
@@ -50,24 +53,25 @@ pub fn write(reel: &Reel, run: &RunFacts, stop: &Stop) -> io::Result<Option<Path
 /// is nothing new.
 pub fn is_fresh(reel: &Reel, run: &RunFacts) -> bool {
     let kept = run.outcomes.values().all(|o| *o == Outcome::Kept);
-    kept && ledger::holds(reel, PAGE, || key::key(reel, run, &statuses(reel)))
+    kept && ledger::holds(reel, PAGE, || key::key(reel, run, &find(reel, run)))
 }
 
 /// The whole HTML file.
-fn text(reel: &Reel, views: &[View<'_>]) -> String {
+fn text(reel: &Reel, contents: &Contents<'_>) -> String {
+    let views = &contents.views;
     let page = html! {
         (DOCTYPE)
         html lang="en" {
             (head::head(reel))
             body {
                 main {
-                    (head::opening(reel, views))
-                    (player::section(reel, views))
-                    (grid::section(views))
+                    (head::opening(reel, contents))
+                    @if !views.is_empty() { (player::section(reel, contents)) }
+                    (grid::section(contents))
                     (chart::section(views))
-                    (table::section(views))
+                    (table::section(contents))
                 }
-                (player::script())
+                @if !views.is_empty() { (player::script()) }
             }
         }
     };

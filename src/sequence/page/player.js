@@ -7,6 +7,8 @@
   const bars = [...document.querySelectorAll("#bars a")];
   const titles = [...document.querySelectorAll("#frames thead th")].map((cell) => cell.textContent);
   const fps = Number(player.dataset.fps);
+  // Not every frame has a link: long gaps have none.
+  const frameOf = (index) => links[index].dataset.frame;
   let current = 0; // Counted from 0, as the links are.
   let playing = null; // When and with which frame playing began.
   let waiting = 0;
@@ -37,13 +39,14 @@
     const state = links[current].querySelector(".state").textContent;
     picture.hidden = !small;
     absent.hidden = Boolean(small);
-    absent.textContent = `frame ${current + 1}: ${state}`;
+    const frame = frameOf(current);
+    absent.textContent = `frame ${frame}: ${state}`;
     if (small) picture.src = small.src;
-    picture.alt = `frame ${current + 1}`;
+    picture.alt = `frame ${frame}`;
     scrub.value = current + 1;
-    scrub.setAttribute("aria-valuetext", `frame ${current + 1}, ${state}`);
-    number.textContent = `frame ${current + 1} of ${links.length}`;
-    describe(element(`frame-${current + 1}`));
+    scrub.setAttribute("aria-valuetext", `frame ${frame}, ${state}`);
+    number.textContent = `frame ${frame} of ${player.dataset.frames}`;
+    describe(element(`frame-${frame}`));
     clearTimeout(waiting);
     if (playing === null) waiting = setTimeout(sharpen, 120);
   };
@@ -82,15 +85,15 @@
 
   play.addEventListener("click", () => set(playing === null));
   scrub.addEventListener("input", () => go(Number(scrub.value) - 1));
-  for (const link of [...links, ...bars]) {
+  for (const list of [links, bars]) list.forEach((link, index) => {
     link.addEventListener("click", (event) => {
       if (event.ctrlKey || event.metaKey || event.shiftKey) return;
       event.preventDefault();
-      go(Number(link.dataset.frame) - 1);
+      go(index);
       player.scrollIntoView({ block: "nearest" });
       scrub.focus({ preventScroll: true });
     });
-  }
+  });
   document.addEventListener("keydown", (event) => {
     const { key, target } = event;
     if (event.altKey || event.ctrlKey || event.metaKey || event.shiftKey) return;
@@ -116,8 +119,9 @@
   // A link to a row of the table is one to its frame here.
   const follow = () => {
     const frame = location.hash.match(/^#frame-(\d+)$/)?.[1];
-    if (!frame) return;
-    go(Number(frame) - 1);
+    const index = links.findIndex((link) => link.dataset.frame === frame);
+    if (index < 0) return;
+    go(index);
     player.scrollIntoView();
   };
 

@@ -1,7 +1,7 @@
 //! All frames as a table: what is known of each, and what it is made of.
 
 use super::chart::PHASES;
-use super::view::{View, beside};
+use super::view::{Contents, Entry, View, beside, span};
 use crate::film::plot::quantity::{NOTHING, bytes, number, time};
 use crate::plan::Facts;
 use crate::queue::Record;
@@ -26,7 +26,7 @@ const fn numbers(title: &'static str, cell: fn(&View<'_>) -> Option<String>) -> 
     Column { title, class, cell }
 }
 
-const COLUMNS: [Column; 16] = [
+const COLUMNS: [Column; 17] = [
     words("State", |view| {
         let because = view.state.because().map(|b| format!(": {b}"));
         Some(format!(
@@ -68,6 +68,9 @@ const COLUMNS: [Column; 16] = [
             shared => Some(format!("shared by {shared} frames")),
         })
     }),
+    numbers("Light left out, %", |view| {
+        record(view, |r| (r.cut > 0.0).then(|| digits(100.0 * r.cut)))
+    }),
     words("Warnings", |view| {
         record(view, |r| {
             Some(r.warnings.join("; ")).filter(|w| !w.is_empty())
@@ -88,7 +91,8 @@ fn phase(view: &View<'_>, place: usize) -> Option<String> {
 }
 
 /// The section.
-pub(super) fn section(views: &[View<'_>]) -> Markup {
+pub(super) fn section(contents: &Contents<'_>) -> Markup {
+    let views = &contents.views;
     let has = |column: &&Column| views.iter().any(|view| (column.cell)(view).is_some());
     let columns: Vec<&Column> = COLUMNS.iter().filter(has).collect();
     let common = common_parts(views);
@@ -101,7 +105,12 @@ pub(super) fn section(views: &[View<'_>]) -> Markup {
                     @for column in &columns { th scope="col" class=[column.class] { (column.title) } }
                     th scope="col" { "Made of" }
                 } }
-                tbody { @for view in views { (row(view, &columns, &common)) } }
+                tbody { @for entry in contents.entries() { @match entry {
+                    Entry::Frame(view) => (row(view, &columns, &common)),
+                    Entry::Gap(run) => tr.gap { td colspan=(columns.len() + 2) {
+                        "frames " (span(run)) ": missing"
+                    } },
+                } } }
             } }
             @if !common.is_empty() { details {
                 summary { "What all frames are made of" }

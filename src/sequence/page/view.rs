@@ -4,6 +4,7 @@ use super::run::{Outcome, RunFacts};
 use super::thumbnail::{Thumbnail, small};
 use crate::plan::{Facts, facts};
 use crate::queue::{Record, Reel, Status, Stop};
+use crate::sequence::gaps::{Run, SINGLY, count, gaps};
 use crate::sequence::read;
 use crate::sequence::verify::is_asked;
 use crate::shot::Format;
@@ -67,21 +68,63 @@ pub(super) struct View<'a> {
     pub(super) facts: Option<Facts>,
 }
 
-impl<'a> View<'a> {
-    /// All frames of a reel, in order, as they were found; none if asked to stop.
-    pub(super) fn all(
-        reel: &'a Reel,
-        run: &RunFacts,
-        found: &[Status],
-        stop: &Stop,
-    ) -> Option<Vec<Self>> {
-        let numbered = found.par_iter().enumerate();
-        numbered
-            .map(|(n, found)| (!is_asked(stop)).then(|| Self::one(reel, run, n as u32 + 1, found)))
-            .collect()
+/// What a page tells of: frames that are there or that a run was to make, and where there are more,
+/// runs of those that are not.
+pub(super) struct Contents<'a> {
+    /// How many frames the shot has.
+    pub(super) frames: u32,
+    /// Those that are shown one by one, ascending.
+    pub(super) views: Vec<View<'a>>,
+    /// The runs of all others.
+    pub(super) gaps: Vec<Run>,
+}
+
+/// One thing of a page's contents.
+pub(super) enum Entry<'a> {
+    Frame(&'a View<'a>),
+    Gap(&'a Run),
+}
+
+impl<'a> Contents<'a> {
+    /// Of a reel as it was found; none if asked to stop.
+    pub(super) fn new(reel: &'a Reel, run: &RunFacts, found: Found, stop: &Stop) -> Option<Self> {
+        let shown = found.frames.len() as u32;
+        let frames = found.frames.par_iter();
+        let view = |(frame, found): &(u32, Status)| {
+            (!is_asked(stop)).then(|| View::one(reel, run, (*frame, found), shown))
+        };
+        Some(Self {
+            frames: reel.shot().shot.frames,
+            views: frames.map(view).collect::<Option<_>>()?,
+            gaps: found.gaps,
+        })
     }
 
-    fn one(reel: &'a Reel, run: &RunFacts, frame: u32, found: &Status) -> Self {
+    /// All of it in the order of frames.
+    pub(super) fn entries(&self) -> impl Iterator<Item = Entry<'_>> {
+        let mut gaps = self.gaps.iter().peekable();
+        let mut views = self.views.iter().peekable();
+        std::iter::from_fn(move || {
+            let next = views.peek().map_or(u32::MAX, |view| view.frame);
+            match gaps.next_if(|gap| *gap.start() < next) {
+                Some(gap) => Some(Entry::Gap(gap)),
+                None => views.next().map(Entry::Frame),
+            }
+        })
+    }
+}
+
+/// `3–17`, as of frames.
+pub(super) fn span(run: &Run) -> String {
+    match (run.start(), run.end()) {
+        (first, last) if first == last => first.to_string(),
+        (first, last) => format!("{first}–{last}"),
+    }
+}
+
+impl<'a> View<'a> {
+    /// One of so many frames that are shown.
+    fn one(reel: &'a Reel, run: &RunFacts, (frame, found): (u32, &Status), shown: u32) -> Self {
         let shot = reel.shot();
         let still = read(reel, frame);
         let found = match found {
@@ -102,7 +145,7 @@ impl<'a> View<'a> {
             },
             _ => found,
         };
-        let picture = still.ok().and_then(|still| small(still, shot.shot.frames));
+        let picture = still.ok().and_then(|still| small(still, shown));
         let name = reel.names.frame(frame, "png");
         let browsers_show_it = shot.output.formats.contains(&Format::Png);
         Self {
@@ -123,12 +166,27 @@ pub(super) fn fitting(reel: &Reel, frame: u32) -> Option<&Record> {
     (record.fingerprint == reel.keys.frame(frame).fingerprint).then_some(record)
 }
 
-/// What there is of each frame of a reel, in order.
-pub(super) fn statuses(reel: &Reel) -> Vec<Status> {
-    let frames = (1..=reel.shot().shot.frames).into_par_iter();
-    frames
-        .map(|frame| reel.status(frame, &reel.keys.frame(frame)))
-        .collect()
+/// What there is of a reel's frames.
+pub(super) struct Found {
+    /// Those that are there or that a run was to make, and those between in short gaps.
+    pub(super) frames: Vec<(u32, Status)>,
+    /// Runs of others, longer ones.
+    pub(super) gaps: Vec<Run>,
+}
+
+/// Looks at a reel's frames; those that nobody made cost nothing.
+pub(super) fn find(reel: &Reel, run: &RunFacts) -> Found {
+    let mut shown = reel.there();
+    shown.extend(run.outcomes.keys());
+    let runs = gaps(shown.iter().copied(), reel.shot().shot.frames);
+    let (long, short): (Vec<Run>, Vec<Run>) = runs.into_iter().partition(|r| count(r) > SINGLY);
+    shown.extend(short.into_iter().flatten());
+    let frames: Vec<u32> = shown.into_iter().collect();
+    let statuses = reel.statuses(&frames);
+    Found {
+        frames: frames.into_iter().zip(statuses).collect(),
+        gaps: long,
+    }
 }
 
 /// Of a frame that is there and as it should be.

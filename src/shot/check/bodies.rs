@@ -4,6 +4,7 @@ use super::Checks;
 use crate::shot::names::short;
 use crate::shot::{Model, Scale, Track, Velocity, Worldline};
 use std::collections::HashSet;
+use std::path::Path;
 
 /// Most instances that one array may have.
 pub const MAX_INSTANCES: u128 = 10_000_000;
@@ -110,8 +111,9 @@ impl Checks<'_> {
     }
 
     fn model_file(&mut self, key: &str, model: &Model) {
-        let extension = model
-            .file
+        // Blanks at the end of a name are told as such.
+        let file = model.file.to_string_lossy();
+        let extension = Path::new(file.trim())
             .extension()
             .map(|extension| extension.to_string_lossy().to_lowercase());
         if matches!(extension.as_deref(), Some("obj" | "gltf" | "glb")) {

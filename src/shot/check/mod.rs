@@ -12,6 +12,7 @@ mod materials;
 mod sky;
 mod spectra;
 
+use super::file_names;
 use super::mistake::Mistake;
 use super::names::{did_you_mean, short};
 use super::track::Blend;
@@ -118,8 +119,9 @@ impl<'a> Checks<'a> {
         let from_here = self.shot.path.parent().unwrap_or(Path::new("")).join(file);
         let shown = short(&file.display().to_string());
         if !from_here.exists() {
-            let message = format!("there is no file {shown:?}");
-            self.say(key, message, "paths are relative to the shot file");
+            let folder = self.shot.path.parent().unwrap_or(Path::new(""));
+            let help = file_names::remedy(folder, file);
+            self.say(key, format!("there is no file {shown:?}"), &help);
         } else if !from_here.is_file() {
             self.say(key, format!("{shown:?} is not a file"), "name a file in it");
         }

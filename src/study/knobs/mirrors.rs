@@ -2,13 +2,12 @@
 
 use super::Knob;
 use crate::plan::Called;
+use crate::shot::MOST_BOUNCES;
 use crate::study::Start;
 use crate::study::subject::Variant;
 
 const BOUNCES: [u32; 7] = [0, 1, 2, 3, 4, 8, 16];
 const CUTOFFS: [f64; 6] = [0.3, 0.1, 0.01, 1e-3, 1e-4, 1e-6];
-/// Most bounces that a shot may ask for.
-const ALL_BOUNCES: u32 = 64;
 
 /// The knob `effects.bounces`.
 pub(super) fn bounces(start: &Start<'_>, called: &Called) -> Knob {
@@ -23,7 +22,7 @@ pub(super) fn bounces(start: &Start<'_>, called: &Called) -> Knob {
         shot.effects.bounces = bounces;
         for splice in &mut shot.splice {
             splice.effects.bounces = splice.effects.bounces.map(|own| match bounces {
-                ALL_BOUNCES => ALL_BOUNCES,
+                MOST_BOUNCES => MOST_BOUNCES,
                 bounces => own.min(bounces),
             });
         }
@@ -48,7 +47,7 @@ pub(super) fn bounces(start: &Start<'_>, called: &Called) -> Knob {
         counts.sort_unstable();
     }
     knob.variants = counts.into_iter().map(|n| variant(n, cutoff)).collect();
-    knob.references = vec![variant(ALL_BOUNCES, cutoff)];
+    knob.references = vec![variant(MOST_BOUNCES, cutoff)];
     knob
 }
 
