@@ -2,13 +2,12 @@
 
 use super::model::{Lamp, LampKind};
 use super::spectra::Spectra;
-use crate::shot::{self, LightKind, SpectrumValue};
-use crate::spectrum::{Spectrum, SpectrumError, cie};
+use crate::shot::{self, LightKind, LightUnits, SpectrumValue};
+use crate::spectrum::cie::{self, EFFICACY};
+use crate::spectrum::{Spectrum, SpectrumError};
 use glam::{DAffine3, DVec3};
+use std::f64::consts::PI;
 use std::sync::Arc;
-
-/// Lumens in the watt of glTF's lamps as Blender writes them, whatever their colour.
-const LUMENS_PER_WATT: f64 = 683.0;
 
 /// A lamp.
 #[derive(Debug, Clone, PartialEq)]
@@ -84,6 +83,12 @@ pub(super) enum LightError {
     /// Its intensity is in candela or lux, but it has no visible light.
     #[error("its spectrum has no visible power, so no candela or lux of it can be had")]
     Dark,
+    /// A file's number, in candela or lux, is beyond all numbers.
+    #[error("its intensity of {found} is beyond all numbers in cd or lx: write a smaller one")]
+    TooStrong {
+        /// As in the file.
+        found: f64,
+    },
     /// Its spectrum is none.
     #[error(transparent)]
     Spectrum(#[from] SpectrumError),
@@ -125,13 +130,15 @@ impl Light {
         })
     }
 
-    /// A lamp of a model file, placed by `rest_from_model` and displaced.
+    /// A lamp of a model file whose numbers are in `units`, placed by `rest_from_model` and
+    /// displaced.
     pub(super) fn imported(
         lamp: &Lamp,
+        units: LightUnits,
         worldline: usize,
         rest_from_model: &DAffine3,
         displaced: DVec3,
-    ) -> Result<Self, SpectrumError> {
+    ) -> Result<Self, LightError> {
         let rest_from_lamp = *rest_from_model * lamp.world;
         let position = rest_from_lamp.translation + displaced;
         let direction = rest_from_lamp
@@ -147,13 +154,28 @@ impl Light {
                 cos_outer: outer.cos(),
             },
         };
+        let (curve, scale) = Spectra::light(lamp.color, lamp.intensity * unit(units, lamp.kind))?;
+        if !scale.is_finite() {
+            let found = lamp.intensity;
+            return Err(LightError::TooStrong { found });
+        }
         Ok(Self {
             name: lamp.name.clone(),
             worldline,
             shape,
-            scale: lamp.intensity / LUMENS_PER_WATT,
-            spectrum: Spectra::color(lamp.color)?,
+            scale,
+            spectrum: Arc::new(Spectrum::Tinted(curve)),
         })
+    }
+}
+
+/// Candela or lux in the unit of a file's lamps: Blender takes a watt for 683 lm whatever its
+/// colour, and spreads a point's and a spot's watts over the whole sphere.
+fn unit(units: LightUnits, kind: LampKind) -> f64 {
+    match (units, kind) {
+        (LightUnits::Standard, _) => 1.0,
+        (LightUnits::Unitless, _) | (LightUnits::Raw, LampKind::Sun) => EFFICACY,
+        (LightUnits::Raw, LampKind::Point | LampKind::Spot { .. }) => EFFICACY / (4.0 * PI),
     }
 }
 

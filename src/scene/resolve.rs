@@ -204,12 +204,14 @@ impl Resolver<'_> {
         for &i in &arrangement.order {
             let (place, worldline) = (&arrangement.placing[i], arrangement.worldlines[i]);
             let lamps = &self.library.model(i).file.lamps;
+            let units = self.shot.model[i].light_units.unwrap_or_default();
+            let rest_from_model = &place.rest_from_model;
             for copy in place
                 .copies()
                 .take(if lamps.is_empty() { 0 } else { MOST_LIGHTS + 1 })
             {
                 for lamp in lamps {
-                    match Light::imported(lamp, worldline as usize, &place.rest_from_model, copy) {
+                    match Light::imported(lamp, units, worldline as usize, rest_from_model, copy) {
                         Ok(light) => lights.push(light),
                         Err(error) => {
                             let message = format!("lamp \"{}\": {error}", lamp.name);

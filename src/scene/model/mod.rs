@@ -73,11 +73,18 @@ pub struct ModelMaterial {
     pub name: String,
     /// Linear RGB reflectance, 0 to 1.
     pub base_color: [f64; 3],
-    /// Linear RGB of the light it gives off, factor × strength, W·m⁻²·sr⁻¹.
+    /// Linear RGB of the light it gives off, factor × strength, in units of `emissive_unit`.
     pub emissive: [f64; 3],
+    /// Luminance of an emissive white of 1, cd/m²: [`BY_BLENDER`] in files of its exporters, else 1.
+    pub emissive_unit: f64,
     /// Whether the back is seen as well as the front.
     pub double_sided: bool,
 }
+
+/// Luminance of an emission of 1 as Blender's exporters write it, cd/m². They leave radiance in
+/// W·m⁻²·sr⁻¹ and turn the watts of lamps into lumens by this number, whatever the light: so one
+/// exposure serves both.
+pub const BY_BLENDER: f64 = 683.0;
 
 /// A lamp, which looks along the negative z axis of its own coordinates.
 #[derive(Debug, Clone, PartialEq)]
@@ -86,7 +93,7 @@ pub struct Lamp {
     pub name: String,
     /// Its kind.
     pub kind: LampKind,
-    /// As in the file: cd for point and spot, lx for sun. Blender's watts are 683 times smaller.
+    /// As in the file: cd for point and spot, lx for sun, unless it was written in other units.
     pub intensity: f64,
     /// Linear RGB.
     pub color: [f64; 3],

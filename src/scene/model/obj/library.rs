@@ -1,9 +1,10 @@
 //! MTL: the color, the emission and the name of materials; all else of them is a warning.
 //!
-//! `Ke` is color times strength. A material with a picture (`map_Kd`) has no `Kd` line in Blender's
+//! `Ke` is color times strength, radiance as it stands where the library's head says that Blender
+//! wrote it, and 1 is 1 cd/m² elsewhere. A material with a picture (`map_Kd`) has no `Kd` line in Blender's
 //! files and is drawn white. Surfaces of OBJ are seen from both sides.
 
-use super::super::{ModelError, ModelMaterial, Warning};
+use super::super::{BY_BLENDER, ModelError, ModelMaterial, Warning};
 use crate::shot::{ModelFiles, Opened};
 use indexmap::{IndexMap, IndexSet};
 use std::path::Path;
@@ -28,12 +29,13 @@ pub(super) fn read(
                     file: part.clone().into(),
                     reason: error.to_string(),
                 })?;
-            materials.extend(found.into_iter().map(|m| (m.name.clone(), m)));
+            let unit = emissive_unit(&text);
+            materials.extend(found.into_iter().map(|m| (m.name.clone(), (m, unit))));
         }
     }
     let mut out = Vec::new();
     for name in used {
-        let Some(material) = materials.get(name) else {
+        let Some((material, unit)) = materials.get(name) else {
             warnings.push(Warning::UndefinedMaterial {
                 material: name.clone(),
             });
@@ -42,6 +44,7 @@ pub(super) fn read(
                 name,
                 base_color: WHITE,
                 emissive: [0.0; 3],
+                emissive_unit: 1.0,
                 double_sided: true,
             });
             continue;
@@ -51,6 +54,7 @@ pub(super) fn read(
             name: name.clone(),
             base_color: material.diffuse.unwrap_or(WHITE),
             emissive: material.emissive.unwrap_or_default(),
+            emissive_unit: *unit,
             double_sided: true,
         };
         out.push(plain.checked(&files.model, warnings)?);
@@ -72,6 +76,17 @@ fn open(
     }
     let read = |(name, opened): (String, Opened)| Ok((name, opened.bytes()?));
     opened.into_iter().map(read).collect()
+}
+
+/// Luminance of a `Ke` of 1, cd/m²: by the comments that a library begins with.
+fn emissive_unit(text: &str) -> f64 {
+    let head = text.trim_start_matches('\u{feff}').lines().map(str::trim);
+    let mut head = head.take_while(|line| line.is_empty() || line.starts_with('#'));
+    if head.any(|line| line.starts_with("# Blender")) {
+        BY_BLENDER
+    } else {
+        1.0
+    }
 }
 
 /// The lines that are read, each of the form that tobj expects.
