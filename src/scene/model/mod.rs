@@ -75,16 +75,15 @@ pub struct ModelMaterial {
     pub base_color: [f64; 3],
     /// Linear RGB of the light it gives off, factor × strength, in units of `emissive_unit`.
     pub emissive: [f64; 3],
-    /// Luminance of an emissive white of 1, cd/m²: [`BY_BLENDER`] in files of its exporters, else 1.
+    /// Luminance of an emissive white of 1, cd/m²: 683 in files by Blender, else 1.
     pub emissive_unit: f64,
     /// Whether the back is seen as well as the front.
     pub double_sided: bool,
 }
 
-/// Luminance of an emission of 1 as Blender's exporters write it, cd/m². They leave radiance in
-/// W·m⁻²·sr⁻¹ and turn the watts of lamps into lumens by this number, whatever the light: so one
-/// exposure serves both.
-pub const BY_BLENDER: f64 = 683.0;
+/// Lumens in a watt as Blender's exporters count them for lamps, whatever the light. Emission they
+/// leave in watts, which are worth as much, so that one exposure serves both.
+pub(super) const LUMENS_PER_WATT: f64 = 683.0;
 
 /// A lamp, which looks along the negative z axis of its own coordinates.
 #[derive(Debug, Clone, PartialEq)]

@@ -1,10 +1,10 @@
 //! MTL: the color, the emission and the name of materials; all else of them is a warning.
 //!
-//! `Ke` is color times strength, radiance as it stands where the library's head says that Blender
-//! wrote it, and 1 is 1 cd/m² elsewhere. A material with a picture (`map_Kd`) has no `Kd` line in Blender's
-//! files and is drawn white. Surfaces of OBJ are seen from both sides.
+//! `Ke` is color times strength: radiance as it stands where the library's head says that Blender
+//! wrote it; elsewhere 1 is 1 cd/m². A material with a picture (`map_Kd`) has no `Kd` line in
+//! Blender's files and is drawn white. Surfaces of OBJ are seen from both sides.
 
-use super::super::{BY_BLENDER, ModelError, ModelMaterial, Warning};
+use super::super::{LUMENS_PER_WATT, ModelError, ModelMaterial, Warning};
 use crate::shot::{ModelFiles, Opened};
 use indexmap::{IndexMap, IndexSet};
 use std::path::Path;
@@ -83,7 +83,7 @@ fn emissive_unit(text: &str) -> f64 {
     let head = text.trim_start_matches('\u{feff}').lines().map(str::trim);
     let mut head = head.take_while(|line| line.is_empty() || line.starts_with('#'));
     if head.any(|line| line.starts_with("# Blender")) {
-        BY_BLENDER
+        LUMENS_PER_WATT
     } else {
         1.0
     }
