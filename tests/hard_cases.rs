@@ -18,6 +18,8 @@ mod boosts;
 mod doppler;
 #[path = "hard_cases/eye.rs"]
 mod eye;
+#[path = "hard_cases/file_lamps.rs"]
+mod file_lamps;
 #[path = "hard_cases/files.rs"]
 mod files;
 #[path = "hard_cases/geometry.rs"]
@@ -66,6 +68,7 @@ fn sections() -> Vec<(&'static str, &'static [card::Case])> {
         ("D. Visibility", visibility::CASES),
         ("E. Moving lamps", moving_lamps::CASES),
         ("E. Shadows", lamps::CASES),
+        ("E. Lamps of model files", file_lamps::CASES),
         ("E. Mirrors and glass", mirrors::CASES),
         ("G. The program as a whole", pipeline::CASES),
     ]

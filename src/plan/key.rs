@@ -10,7 +10,7 @@ use rayon::prelude::*;
 
 /// Raised whenever the same shot gives other pixels than before, so that no older picture passes
 /// for a new one.
-pub const EPOCH: u32 = 1;
+pub const EPOCH: u32 = 2;
 
 /// Size and samples of a shot's images as they are asked for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

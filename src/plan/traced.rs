@@ -172,6 +172,7 @@ impl Traced<'_> {
             array,
             material,
             materials,
+            light_units: _,
         } = model;
         let models = &self.still.model;
         // Materials of one file are the same ones, of two files with one content they are not.

@@ -1,14 +1,12 @@
 //! Lamps, each at rest in a worldline of its own.
 
-use super::model::{Lamp, LampKind};
+use super::model::{LUMENS_PER_WATT, Lamp, LampKind};
 use super::spectra::Spectra;
-use crate::shot::{self, LightKind, SpectrumValue};
+use crate::shot::{self, LightKind, LightUnits, SpectrumValue};
 use crate::spectrum::{Spectrum, SpectrumError, cie};
 use glam::{DAffine3, DVec3};
+use std::f64::consts::PI;
 use std::sync::Arc;
-
-/// Lumens in the watt of glTF's lamps as Blender writes them, whatever their colour.
-const LUMENS_PER_WATT: f64 = 683.0;
 
 /// A lamp.
 #[derive(Debug, Clone, PartialEq)]
@@ -84,6 +82,12 @@ pub(super) enum LightError {
     /// Its intensity is in candela or lux, but it has no visible light.
     #[error("its spectrum has no visible power, so no candela or lux of it can be had")]
     Dark,
+    /// A file's number, in candela or lux, is beyond all numbers.
+    #[error("its intensity of {found:e} is beyond all numbers in cd or lx: write a smaller one")]
+    TooStrong {
+        /// As in the file.
+        found: f64,
+    },
     /// Its spectrum is none.
     #[error(transparent)]
     Spectrum(#[from] SpectrumError),
@@ -125,15 +129,15 @@ impl Light {
         })
     }
 
-    /// A lamp of a model file, placed by `rest_from_model` and displaced.
+    /// A lamp of a model file whose numbers are in `units`, placed by `rest_from_model`.
     pub(super) fn imported(
         lamp: &Lamp,
+        units: LightUnits,
         worldline: usize,
         rest_from_model: &DAffine3,
-        displaced: DVec3,
-    ) -> Result<Self, SpectrumError> {
+    ) -> Result<Self, LightError> {
         let rest_from_lamp = *rest_from_model * lamp.world;
-        let position = rest_from_lamp.translation + displaced;
+        let position = rest_from_lamp.translation;
         let direction = rest_from_lamp
             .transform_vector3(DVec3::NEG_Z)
             .normalize_or(DVec3::NEG_Z);
@@ -147,13 +151,38 @@ impl Light {
                 cos_outer: outer.cos(),
             },
         };
+        let (curve, scale) = Spectra::light(lamp.color, lamp.intensity * unit(units, lamp.kind))?;
+        if !scale.is_finite() {
+            let found = lamp.intensity;
+            return Err(LightError::TooStrong { found });
+        }
         Ok(Self {
             name: lamp.name.clone(),
             worldline,
             shape,
-            scale: lamp.intensity / LUMENS_PER_WATT,
-            spectrum: Spectra::color(lamp.color)?,
+            scale,
+            spectrum: Arc::new(Spectrum::Tinted(curve)),
         })
+    }
+
+    /// The same lamp elsewhere.
+    pub(super) fn displaced(&self, by: DVec3) -> Self {
+        let mut moved = self.clone();
+        match &mut moved.shape {
+            LightShape::Point { position } | LightShape::Spot { position, .. } => *position += by,
+            LightShape::Sun { .. } => {}
+        }
+        moved
+    }
+}
+
+/// Candela or lux in the unit of a file's lamps: Blender spreads a point's and a spot's watts over
+/// the whole sphere.
+fn unit(units: LightUnits, kind: LampKind) -> f64 {
+    match (units, kind) {
+        (LightUnits::Standard, _) => 1.0,
+        (LightUnits::Unitless, _) | (LightUnits::Raw, LampKind::Sun) => LUMENS_PER_WATT,
+        (LightUnits::Raw, LampKind::Point | LampKind::Spot { .. }) => LUMENS_PER_WATT / (4.0 * PI),
     }
 }
 

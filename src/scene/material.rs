@@ -126,22 +126,27 @@ impl MaterialError {
 impl Material {
     /// A material of a model file: its base colour and its glow.
     pub(super) fn imported(file: &ModelMaterial) -> Result<Self, SpectrumError> {
-        let term = |rgb: [f64; 3]| -> Result<Option<Reflectance>, SpectrumError> {
-            let some = rgb.iter().any(|&c| c > 0.0);
-            some.then(|| {
-                Ok(Reflectance {
-                    weight: 1.0,
-                    spectrum: Spectra::color(rgb)?,
-                })
-            })
-            .transpose()
+        let term = |spectrum| Reflectance {
+            weight: 1.0,
+            spectrum,
         };
-        Ok(Self {
+        let mut made = Self {
             name: file.name.clone(),
-            diffuse: term(file.base_color)?,
-            emission: term(file.emissive)?,
             ..Self::default()
-        })
+        };
+        let is_some = |rgb: [f64; 3]| rgb.iter().any(|&c| c > 0.0);
+        if is_some(file.base_color) {
+            made.diffuse = Some(term(Spectra::color(file.base_color)?));
+        }
+        if is_some(file.emissive) {
+            // By its hue, so that the curve's shape does not change with its strength.
+            let greatest = file.emissive.into_iter().fold(0.0, f64::max);
+            let hue = file.emissive.map(|part| part / greatest);
+            let (curve, unit) = Spectra::light(hue, file.emissive_unit)?;
+            let curve = Spectrum::Tinted(curve.scaled(greatest * unit));
+            made.emission = Some(term(Arc::new(curve)));
+        }
+        Ok(made)
     }
 
     /// The shot's material laid over this one: keys that it gives replace, the rest stays.

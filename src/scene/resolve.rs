@@ -203,20 +203,22 @@ impl Resolver<'_> {
         }
         for &i in &arrangement.order {
             let (place, worldline) = (&arrangement.placing[i], arrangement.worldlines[i]);
-            let lamps = &self.library.model(i).file.lamps;
+            let units = self.shot.model[i].light_units.unwrap_or_default();
+            let mut lamps = Vec::new();
+            for lamp in &self.library.model(i).file.lamps {
+                match Light::imported(lamp, units, worldline as usize, &place.rest_from_model) {
+                    Ok(light) => lamps.push(light),
+                    Err(error) => {
+                        let message = format!("lamp \"{}\": {error}", lamp.name);
+                        self.mistake(&format!("model[{i}].file"), message, None);
+                    }
+                }
+            }
             for copy in place
                 .copies()
                 .take(if lamps.is_empty() { 0 } else { MOST_LIGHTS + 1 })
             {
-                for lamp in lamps {
-                    match Light::imported(lamp, worldline as usize, &place.rest_from_model, copy) {
-                        Ok(light) => lights.push(light),
-                        Err(error) => {
-                            let message = format!("lamp \"{}\": {error}", lamp.name);
-                            self.mistake(&format!("model[{i}].file"), message, None);
-                        }
-                    }
-                }
+                lights.extend(lamps.iter().map(|lamp| lamp.displaced(copy)));
                 if lights.len() > MOST_LIGHTS {
                     let message = format!("more than {MOST_LIGHTS} lamps");
                     let help = "leave the lamps out of a file that is arrayed";

@@ -2,7 +2,10 @@
 
 use super::library::Library;
 use crate::shot::{self, Shot, SpectrumTable, SpectrumValue};
-use crate::spectrum::{self, Cardinal, PlanckShape, Spectrum, SpectrumError, Uplift, illuminant};
+use crate::spectrum::color_space::XYZ_FROM_RGB;
+use crate::spectrum::{
+    self, Cardinal, PlanckShape, Spectrum, SpectrumError, Tinted, Uplift, cie, illuminant,
+};
 use std::sync::Arc;
 
 /// Where Planck's curve is 1 unless `unit_at` says otherwise, nm.
@@ -33,6 +36,22 @@ impl Spectra<'_> {
     /// The smooth curve of a linear Rec. 709 colour.
     pub(super) fn color(rgb: [f64; 3]) -> Result<Arc<Spectrum>, SpectrumError> {
         Ok(Arc::new(Spectrum::Rgb(Uplift::new(rgb)?)))
+    }
+
+    /// Light of a linear Rec. 709 colour, D65 times its uplift, and the scale at which it has the
+    /// luminance of that colour where white has `white`: cd/m², and so cd and lx.
+    pub(super) fn light(rgb: [f64; 3], white: f64) -> Result<(Tinted, f64), SpectrumError> {
+        let curve = Tinted::new(rgb)?;
+        let lumens = cie::luminous_integral(&Spectrum::Tinted(curve.clone()));
+        // About green, since the three shares are 1 together: a grey's is exact.
+        let ([r, g, b], [red, _, blue]) = (rgb, XYZ_FROM_RGB[1]);
+        let luminance = g + red * (r - g) + blue * (b - g);
+        let scale = if lumens > 0.0 {
+            white * luminance / lumens
+        } else {
+            0.0
+        };
+        Ok((curve, scale))
     }
 
     /// A track's value in this image.

@@ -11,6 +11,7 @@ static NO_MATERIAL: ModelMaterial = ModelMaterial {
     name: String::new(),
     base_color: [1.0; 3],
     emissive: [0.0; 3],
+    emissive_unit: 1.0,
     double_sided: true,
 };
 

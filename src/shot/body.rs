@@ -78,6 +78,21 @@ pub struct Model {
     /// Material by the name it has in the file: { "Name in the file" = "red" }; "" is the name of surfaces to which the file gives none. Default: the file's materials, white where it gives none.
     #[serde(default, skip_serializing_if = "IndexMap::is_empty")]
     pub materials: IndexMap<String, String>,
+    /// Units of the lamps in a glTF file, as Blender's export option Lighting Mode has them. Default: "standard".
+    pub light_units: Option<LightUnits>,
+}
+
+/// Units of the lamps in a model file. Nothing in the file tells them apart.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum LightUnits {
+    /// Candela and lux, as glTF has it: a lamp of 100 cd is one of `intensity = 100` in the shot.
+    #[default]
+    Standard,
+    /// W/sr and, of suns, W/m²: 683 cd or lx each.
+    Unitless,
+    /// Watts as Blender's panel shows them: 683/4π cd each; of suns W/m²: 683 lx each.
+    Raw,
 }
 
 impl Model {

@@ -22,7 +22,6 @@ const LATER: &[(&str, When, &str)] = &[
     ("model[].node", Always, "give the nodes model files of their own"),
     ("model[].clips", Always, "leave it out: models stand as their file's nodes do"),
     ("model[].motion", Always, "leave it out: models stand as their file's nodes do"),
-    ("model[].light_units", Always, "leave it out: lamps are read as \"standard\""),
     ("camera.model", Always, "place the camera with `position` and `look_at`"),
     ("camera.node", Always, "place the camera with `position` and `look_at`"),
     ("sensor.tone", Word("filmic"), "use \"clip\""),

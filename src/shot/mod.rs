@@ -46,7 +46,9 @@ pub use appearance::{
     Beyond, Diffuse, Emission, Gaussian, Highlight, Material, Mirror, Refraction, SpectrumTable,
     SpectrumValue, Thermal, ThermalCurve,
 };
-pub use body::{Array, GammaVelocity, Model, RapidityVelocity, Scale, Velocity, Worldline};
+pub use body::{
+    Array, GammaVelocity, LightUnits, Model, RapidityVelocity, Scale, Velocity, Worldline,
+};
 pub use camera::{Camera, Projection};
 pub use check::{ILLUMINANTS, MAX_INSTANCES};
 pub use gltf_json::{GltfJson, TextFault};

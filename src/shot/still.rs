@@ -3,10 +3,10 @@
 
 use super::{
     Accuracy, Array, AutoExposure, Background, Beyond, Camera, Clock, Diffuse, Effects, Emission,
-    Exposure, Filter, GammaVelocity, Gaussian, Highlight, Image, Inset, Light, LightKind, Material,
-    Mirror, Model, Output, Places, Projection, RapidityVelocity, Refraction, Scale, Sensor,
-    SensorColor, Sequence, Shot, SpectrumTable, SpectrumValue, Splice, Stars, Thermal,
-    ThermalCurve, Tone, Track, Velocity, Worldline, track::Blend,
+    Exposure, Filter, GammaVelocity, Gaussian, Highlight, Image, Inset, Light, LightKind,
+    LightUnits, Material, Mirror, Model, Output, Places, Projection, RapidityVelocity, Refraction,
+    Scale, Sensor, SensorColor, Sequence, Shot, SpectrumTable, SpectrumValue, Splice, Stars,
+    Thermal, ThermalCurve, Tone, Track, Velocity, Worldline, track::Blend,
 };
 use indexmap::IndexMap;
 use serde_json::{Map, Value};
@@ -279,7 +279,8 @@ macro_rules! forms {
 
 fixed! {
     f64, u32, bool, String, PathBuf, Places, Accuracy, AutoExposure, Beyond, Effects, Filter, Inset,
-    LightKind, Output, Projection, SensorColor, Sequence, Splice, Stars, ThermalCurve, Tone,
+    LightKind, LightUnits, Output, Projection, SensorColor, Sequence, Splice, Stars, ThermalCurve,
+    Tone,
 }
 
 tables! {
@@ -292,7 +293,9 @@ tables! {
     Worldline { velocity, passes, at }
     GammaVelocity { gamma, direction }
     RapidityVelocity { rapidity, direction }
-    Model { name, file, worldline, translate, rotate, scale, array, material, materials }
+    Model {
+        name, file, worldline, translate, rotate, scale, array, material, materials, light_units,
+    }
     Array { count, step, centered }
     Material { diffuse, highlight, mirror, refraction, emission, thermal }
     Diffuse { weight, spectrum }

@@ -90,7 +90,7 @@ fn smooth_pieces(spectrum: &Spectrum) -> (f64, [f64; 2]) {
             steps_nm,
             [from, to].map(|nm| nm.clamp(RANGE_NM[0], RANGE_NM[1])),
         ),
-        (Spectrum::Rgb(_), _) => (steps_nm, RANGE_NM),
+        (Spectrum::Rgb(_) | Spectrum::Tinted(_), _) => (steps_nm, RANGE_NM),
         _ => (1.0, RANGE_NM),
     }
 }

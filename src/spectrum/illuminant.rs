@@ -45,6 +45,11 @@ pub fn illuminant(name: &str) -> Option<Spectrum> {
     Some(Spectrum::Sampled(relative(&table)))
 }
 
+/// D65, daylight of 6504 K: the white of sRGB.
+pub(super) fn d65() -> Sampled {
+    relative(&tables::D65)
+}
+
 /// A table as a curve that is 1 at [`UNIT_AT_NM`].
 fn relative(table: &Uniform) -> Sampled {
     let unit = table.values[((UNIT_AT_NM - table.start_nm) / table.step_nm) as usize];

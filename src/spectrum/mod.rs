@@ -24,6 +24,7 @@ pub mod sampled;
 mod sensor;
 mod tables;
 mod through;
+mod tinted;
 pub mod uplift;
 
 pub use bound::GridBound;
@@ -38,6 +39,7 @@ pub use roughness::Roughness;
 pub use sampled::Sampled;
 pub use sensor::{Sensor, catmull_rom};
 pub use through::{MOST_ROWS, Responses, Sparse};
+pub use tinted::Tinted;
 pub use uplift::{ColoredLight, Uplift};
 
 /// How many widths from its center a gaussian falls below 1e-30 of its peak (e⁻⁷² = 5e-32).
@@ -63,6 +65,8 @@ pub enum Spectrum {
     Sampled(Sampled),
     /// A smooth curve of a given color.
     Rgb(Uplift),
+    /// The light of a given color: D65 times its smooth curve.
+    Tinted(Tinted),
 }
 
 impl Spectrum {
@@ -81,6 +85,7 @@ impl Spectrum {
             }
             Self::Sampled(curve) => curve.at(lambda_nm),
             Self::Rgb(curve) => curve.at(lambda_nm),
+            Self::Tinted(curve) => curve.at(lambda_nm),
         }
     }
 
@@ -117,6 +122,7 @@ impl Spectrum {
             }
             Self::Sampled(curve) => ends(curve.knots_nm()),
             Self::Rgb(curve) => curve.support_nm(),
+            Self::Tinted(curve) => ends(curve.knots_nm()),
         }
     }
 
@@ -129,6 +135,7 @@ impl Spectrum {
             Self::Gaussian { .. } => 1.0,
             Self::Sampled(curve) => curve.peak(),
             Self::Rgb(curve) => curve.peak(),
+            Self::Tinted(curve) => curve.peak(),
         }
     }
 
@@ -142,6 +149,7 @@ impl Spectrum {
             Self::Gaussian { width_nm, .. } => Some(*width_nm),
             Self::Planck(curve) => curve.feature_nm(),
             Self::Rgb(curve) => curve.feature_nm(),
+            Self::Tinted(curve) => curve.feature_nm(),
             Self::Cardinal(_) | Self::Sampled(_) => {
                 let gaps = self.knots_nm().windows(2).map(|pair| pair[1] - pair[0]);
                 gaps.min_by(f64::total_cmp)
@@ -154,6 +162,7 @@ impl Spectrum {
         match self {
             Self::Cardinal(curve) => curve.knots_nm(),
             Self::Sampled(curve) => curve.knots_nm(),
+            Self::Tinted(curve) => curve.knots_nm(),
             _ => &[],
         }
     }
@@ -274,6 +283,8 @@ mod tests {
             Spectrum::gaussian(-1e300, 1e300).unwrap(),
             Spectrum::Rgb(Uplift::new([0.8, 0.1, 0.1]).unwrap()),
             Spectrum::Rgb(Uplift::new([1.0, 0.0, 0.0]).unwrap()),
+            Spectrum::Tinted(Tinted::new([1.0, 0.0, 0.0]).unwrap()),
+            Spectrum::Tinted(Tinted::new([0.2, 0.5, 0.3]).unwrap().scaled(1e3)),
         ]);
         all
     }

@@ -238,7 +238,7 @@ pub fn cuts_nm(spectrum: &Spectrum, shift: f64, cuts_nm: &mut Vec<f64>) {
                     .map(|nm| nm / shift),
             );
         }
-        Spectrum::Cardinal(_) | Spectrum::Sampled(_) => {
+        Spectrum::Cardinal(_) | Spectrum::Sampled(_) | Spectrum::Tinted(_) => {
             cuts_nm.extend(spectrum.knots_nm().iter().map(|nm| nm / shift));
         }
     }

@@ -76,12 +76,12 @@ const SUBJECTS: [(&str, &str); 4] = [
     ),
 ];
 
-/// Of the pixels of the subjects, in their order, at [`EPOCH`] 1.
+/// Of the pixels of the subjects, in their order, at [`EPOCH`] 2.
 const PIXELS: [&str; 4] = [
-    "b907fb641c494a59",
+    "524a0462266a9857",
     "5d05b962ae4d5612",
-    "d3a861b29d7040f2",
-    "e166631761aa0bd7",
+    "b8e1fc4e4d3771a2",
+    "44bde8a924001e90",
 ];
 
 /// The 8-bit pixels of one subject.
@@ -123,7 +123,7 @@ fn pixels_change_only_with_the_epoch() {
         found.push(blake3::hash(&pixels).to_hex()[..16].to_owned());
     }
     assert_eq!(
-        EPOCH, 1,
+        EPOCH, 2,
         "write the pixels of the new epoch here: {found:?}"
     );
     assert_eq!(

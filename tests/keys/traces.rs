@@ -385,6 +385,29 @@ fn what_only_shading_reads_shares_the_trace() {
 }
 
 #[test]
+fn the_units_of_a_file_s_lamps_shade_anew_and_trace_nothing() {
+    let desk = desk();
+    desk.put(
+        "lamp.gltf",
+        r#"{ "asset": { "version": "2.0" }, "scenes": [{ "nodes": [0] }], "scene": 0,
+            "nodes": [{ "translation": [0, 2, 3],
+                "extensions": { "KHR_lights_punctual": { "light": 0 } } }],
+            "extensionsUsed": ["KHR_lights_punctual"],
+            "extensions": { "KHR_lights_punctual": { "lights": [{ "type": "point" }] } } }"#,
+    );
+    let lit = |keys: &str| format!("{RICH}[[model]]\nfile = \"lamp.gltf\"\n{keys}");
+    let (key, trees) = traced(&desk, &lit("")).unwrap();
+    let fingerprint = |text: &str| desk.keys(text).frame(1).fingerprint;
+    for units in ["unitless", "raw"] {
+        let text = lit(&format!("light_units = \"{units}\"\n"));
+        let (own_key, own_trees) = traced(&desk, &text).unwrap();
+        assert!(own_trees == trees, "{units}");
+        assert_eq!(own_key, key, "{units}");
+        assert_ne!(fingerprint(&text), fingerprint(&lit("")), "{units}");
+    }
+}
+
+#[test]
 fn a_spectrum_s_name_and_the_shot_s_own_path_are_no_part_of_a_trace() {
     let desk = desk();
     let renamed = RICH

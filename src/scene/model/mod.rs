@@ -73,11 +73,17 @@ pub struct ModelMaterial {
     pub name: String,
     /// Linear RGB reflectance, 0 to 1.
     pub base_color: [f64; 3],
-    /// Linear RGB of the light it gives off, factor × strength, W·m⁻²·sr⁻¹.
+    /// Linear RGB of the light it gives off, factor × strength, in units of `emissive_unit`.
     pub emissive: [f64; 3],
+    /// Luminance of an emissive white of 1, cd/m²: 683 in files by Blender, else 1.
+    pub emissive_unit: f64,
     /// Whether the back is seen as well as the front.
     pub double_sided: bool,
 }
+
+/// Lumens in a watt as Blender's exporters count them for lamps, whatever the light. Emission they
+/// leave in watts, which are worth as much, so that one exposure serves both.
+pub(super) const LUMENS_PER_WATT: f64 = 683.0;
 
 /// A lamp, which looks along the negative z axis of its own coordinates.
 #[derive(Debug, Clone, PartialEq)]
@@ -86,7 +92,7 @@ pub struct Lamp {
     pub name: String,
     /// Its kind.
     pub kind: LampKind,
-    /// As in the file: cd for point and spot, lx for sun. Blender's watts are 683 times smaller.
+    /// As in the file: cd for point and spot, lx for sun, unless it was written in other units.
     pub intensity: f64,
     /// Linear RGB.
     pub color: [f64; 3],

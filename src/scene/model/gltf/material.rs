@@ -1,14 +1,17 @@
 //! Materials: base color and emission factors; all else that shows is a warning.
 //!
-//! Blender's emission strength is radiance as it stands, W·m⁻²·sr⁻¹; its lamps are 683 times their
-//! watts. Materials that no mesh in the picture uses give no warnings.
+//! An emission of 1 is 1 cd/m² (KHR_materials_emissive_strength), but in Blender's files radiance as
+//! it stands. Materials that no mesh in the picture uses give no warnings.
 
-use super::super::{Model, ModelError, ModelMaterial, Warning};
+use super::super::{LUMENS_PER_WATT, Model, ModelError, ModelMaterial, Warning};
 use super::{Source, name_of};
 use ::gltf::json::Material;
 use ::gltf::json::material::AlphaMode;
 use ::gltf::json::validation::Checked;
 use serde_json::Value;
+
+/// What `asset.generator` says of Blender's exporter, perhaps after the name of an add-on.
+const BLENDER: &str = "Khronos glTF Blender I/O";
 
 /// What a picture lacks for want of an extension.
 const EFFECTS: [(&str, &str); 11] = [
@@ -34,6 +37,8 @@ const EFFECTS: [(&str, &str); 11] = [
 impl Source<'_> {
     /// Reads all materials into the model.
     pub(super) fn materials(&self, model: &mut Model) -> Result<(), ModelError> {
+        let generator = self.raw["asset"]["generator"].as_str().unwrap_or_default();
+        let by_blender = generator.contains(BLENDER);
         for (index, material) in self.root.materials.iter().enumerate() {
             let pbr = &material.pbr_metallic_roughness;
             let [red, green, blue, _] = pbr.base_color_factor.0.map(f64::from);
@@ -46,6 +51,7 @@ impl Source<'_> {
                     .emissive_factor
                     .0
                     .map(|factor| f64::from(factor) * strength),
+                emissive_unit: if by_blender { LUMENS_PER_WATT } else { 1.0 },
                 double_sided: material.double_sided,
             };
             model

@@ -1,9 +1,10 @@
 //! MTL: the color, the emission and the name of materials; all else of them is a warning.
 //!
-//! `Ke` is color times strength. A material with a picture (`map_Kd`) has no `Kd` line in Blender's
-//! files and is drawn white. Surfaces of OBJ are seen from both sides.
+//! `Ke` is color times strength: radiance as it stands where the library's head says that Blender
+//! wrote it; elsewhere 1 is 1 cd/m². A material with a picture (`map_Kd`) has no `Kd` line in
+//! Blender's files and is drawn white. Surfaces of OBJ are seen from both sides.
 
-use super::super::{ModelError, ModelMaterial, Warning};
+use super::super::{LUMENS_PER_WATT, ModelError, ModelMaterial, Warning};
 use super::number::numbers;
 use crate::shot::{
     FileError, ModelFiles, Opened, before_comment, each_line, is_utf16, keyword_and_rest,
@@ -11,6 +12,9 @@ use crate::shot::{
 use indexmap::{IndexMap, IndexSet};
 use std::collections::HashMap;
 use std::path::Path;
+
+/// A material as its library has it, and the luminance of an emission of 1 there, cd/m².
+type Defined = (tobj::Material, f64);
 
 /// White, where nothing says otherwise.
 const WHITE: [f64; 3] = [1.0; 3];
@@ -33,7 +37,7 @@ pub(super) fn read(
         }
     }
     let bare = |name| before_comment("usemtl", name);
-    let by_bare_name: HashMap<&str, &tobj::Material> = defined
+    let by_bare_name: HashMap<&str, &Defined> = defined
         .iter()
         .rev()
         .map(|(name, m)| (bare(name), m))
@@ -55,12 +59,9 @@ pub(super) fn read(
 }
 
 /// What is drawn of a material.
-fn plain(
-    name: &str,
-    material: Option<&tobj::Material>,
-    warnings: &mut Vec<Warning>,
-) -> ModelMaterial {
+fn plain(name: &str, defined: Option<&Defined>, warnings: &mut Vec<Warning>) -> ModelMaterial {
     let name = name.to_owned();
+    let material = defined.map(|(material, _)| material);
     match material {
         Some(material) => warn(&name, material, warnings),
         None => warnings.push(Warning::UndefinedMaterial {
@@ -71,6 +72,7 @@ fn plain(
         name,
         base_color: material.and_then(|m| m.diffuse).unwrap_or(WHITE),
         emissive: material.and_then(|m| m.emissive).unwrap_or_default(),
+        emissive_unit: defined.map_or(1.0, |(_, unit)| *unit),
         double_sided: true,
     }
 }
@@ -105,7 +107,7 @@ fn materials(
     name: &str,
     opened: Opened,
     warnings: &mut Vec<Warning>,
-) -> Result<IndexMap<String, tobj::Material>, ModelError> {
+) -> Result<IndexMap<String, Defined>, ModelError> {
     let bytes = opened.bytes()?;
     let checked = check(&bytes, Path::new(name), warnings)?;
     let (found, _) =
@@ -113,7 +115,20 @@ fn materials(
             file: name.into(),
             reason: error.to_string(),
         })?;
-    Ok(found.into_iter().map(|m| (m.name.clone(), m)).collect())
+    let unit = emissive_unit(&String::from_utf8_lossy(&bytes));
+    let defined = found.into_iter().map(|m| (m.name.clone(), (m, unit)));
+    Ok(defined.collect())
+}
+
+/// Luminance of a `Ke` of 1, cd/m²: by the comments that a library begins with.
+fn emissive_unit(text: &str) -> f64 {
+    let head = text.trim_start_matches('\u{feff}').lines().map(str::trim);
+    let mut head = head.take_while(|line| line.is_empty() || line.starts_with('#'));
+    if head.any(|line| line.starts_with("# Blender")) {
+        LUMENS_PER_WATT
+    } else {
+        1.0
+    }
 }
 
 /// The lines that are read, each of the form that tobj expects.
