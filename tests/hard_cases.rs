@@ -34,6 +34,8 @@ mod light;
 mod mirrors;
 #[path = "hard_cases/moving_lamps.rs"]
 mod moving_lamps;
+#[path = "hard_cases/narrow.rs"]
+mod narrow;
 #[path = "hard_cases/numbers.rs"]
 mod numbers;
 #[path = "hard_cases/panoramas.rs"]
@@ -62,6 +64,7 @@ fn sections() -> Vec<(&'static str, &'static [card::Case])> {
         ("A. The whole scene moved", invariance::CASES),
         ("B. Doppler factor and aberration", doppler::CASES),
         ("C. Radiometry and spectra", light::CASES),
+        ("C. Lines and narrow filters", narrow::CASES),
         ("C. Windows of the sensor", windows::CASES),
         ("B, D. The whole sky at once", panoramas::CASES),
         ("D. Geometry", geometry::CASES),
