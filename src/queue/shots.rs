@@ -88,11 +88,20 @@ impl Prepared {
         Ok(Self { shot, library })
     }
 
-    /// Materials and lamps of frame 1 whose bands the sensor's wavelengths cannot tell apart.
+    /// Materials and lamps whose bands the sensor's wavelengths cannot tell apart, by the first, the
+    /// middle or the last frame, whichever is the first that calls for Doppler shifts.
     pub fn unresolved(&self) -> Vec<Unresolved> {
-        let scene = Scene::resolve(&self.shot, &self.library, 1, None);
-        let called = plan::called(&self.shot, 1, &self.shot.effects);
-        let (Ok(scene), Ok(called)) = (scene, called) else {
+        let frames = self.shot.shot.frames;
+        let called = [1, frames.div_ceil(2), frames]
+            .into_iter()
+            .find_map(|frame| {
+                let called = plan::called(&self.shot, frame, &self.shot.effects).ok()?;
+                called.doppler.then_some((frame, called))
+            });
+        let Some((frame, called)) = called else {
+            return Vec::new();
+        };
+        let Ok(scene) = Scene::resolve(&self.shot, &self.library, frame, None) else {
             return Vec::new();
         };
         let settings = Settings {

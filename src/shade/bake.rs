@@ -88,6 +88,18 @@ impl Sight {
         if self.tabulated {
             return self.table.at(shift.ln()).map(|v| v * power);
         }
+        if let Some(narrow) = self.curve.narrow() {
+            let seen = narrow.times(
+                shift.ln(),
+                |_| 1.0,
+                shape,
+                |shape| {
+                    shape.fill(1.0);
+                    1.0
+                },
+            );
+            return seen.map(|v| finite(v * power));
+        }
         let factor = finite(self.curve.read(shift, shape) * power);
         sensor.xyz_of_shape(shape).map(|v| v * factor)
     }
@@ -140,6 +152,8 @@ pub(super) struct Bake<'a> {
     pub(super) settings: &'a Settings<'a>,
     /// Whether tables stand in for sums over wavelengths.
     pub(super) tabulated: bool,
+    /// Whether there are no more pairs of material and emitter than are tabulated.
+    pub(super) few: bool,
     /// The integrals that the sensor's channels stand for.
     pub(super) quadrature: &'a Quadrature,
     /// Made where a curve is narrow.
@@ -281,8 +295,10 @@ impl Bake<'_> {
 
     pub(super) fn sight(&self, curve: Curve, reach: f64) -> Sight {
         let support = curve.support_nm();
-        let (table, tabulated) = match curve.narrow() {
-            Some(narrow) => (narrow.table(self.shifted(reach), support), true),
+        let narrow = curve.narrow();
+        let (table, tabulated) = match narrow.map(|n| n.table(self.shifted(reach), support)) {
+            Some(Some(table)) => (table, true),
+            Some(None) => (self.table(0.0, None, |_, _| 0.0), false),
             None => (
                 self.table(reach, support, |d, out| curve.read(d, out)),
                 self.tabulated,
@@ -301,10 +317,16 @@ impl Bake<'_> {
             (Some([a, b]), Some([c, d])) => Some([a.min(c), b.max(d)]),
             (one, other) => one.or(other),
         };
-        if [reflectance, emitter]
-            .iter()
-            .any(|curve| curve.narrow().is_some())
-        {
+        let narrow = [reflectance, emitter].map(Curve::narrow);
+        if narrow.iter().any(Option::is_some) {
+            if !self.few {
+                return None;
+            }
+            // There is light where both have some.
+            let extents = narrow.into_iter().flatten().filter_map(Narrow::extent_nm);
+            let support = extents.fold(support, |support, [c, d]| {
+                support.map(|[a, b]| [a.max(c).min(b), b.min(d).max(a)])
+            });
             let mut cuts = Vec::new();
             for curve in [reflectance, emitter] {
                 cuts_nm(curve.spectrum(), 1.0, &mut cuts);

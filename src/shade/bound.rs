@@ -2,6 +2,7 @@
 
 use super::curve::Curve;
 use super::curves::CurveShader;
+use super::exact::Reading;
 use super::table::XyzTable;
 use crate::spectrum::{GridBound, Quadrature, Roughness, Spectrum, planck};
 
@@ -38,8 +39,16 @@ impl CurveShader {
         for surface in &self.surfaces {
             for term in surface.reflecting().flatten() {
                 let own = rough(&term.reflectance, near);
-                for lamp in &lamps {
-                    worst = worst.max(grid.relative(&[own, *lamp]));
+                for (emitter, lamp) in self.emitters.iter().zip(&lamps) {
+                    let reading = |curve| Reading { curve, shift: 1.0 };
+                    let both = [&term.reflectance, &emitter.curve].map(reading);
+                    let apart = both.iter().all(|r| r.curve.narrow().is_some())
+                        && self.apart(&both[0], &both[1]).is_some();
+                    worst = worst.max(if apart {
+                        grid.all_light(&[own, *lamp])
+                    } else {
+                        grid.relative(&[own, *lamp])
+                    });
                 }
             }
             if let Some(emission) = &surface.emission {

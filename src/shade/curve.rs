@@ -4,6 +4,13 @@ use super::narrow::Narrow;
 use crate::spectrum::{Baked, Fine, LogAxis, Smoothing, Spectrum};
 use std::sync::{Arc, OnceLock};
 
+/// Share of local light that a grid may lose or add before a curve counts as narrow: half of what
+/// pictures of a ramp may flicker by.
+pub(super) const NOTICED: f64 = 1e-3;
+
+/// The same of a curve that is read as its author wrote it, point by point.
+const NOTICED_AS_WRITTEN: f64 = 2e-3;
+
 /// weight × spectrum, at most `limit`, ready to be read under any shift.
 pub(super) struct Curve {
     spectrum: Arc<Spectrum>,
@@ -37,9 +44,7 @@ impl Curve {
     pub(super) fn baked_within(mut self, reach: f64) -> Self {
         let smoothing = Smoothing::of(&self.spectrum);
         self.reach = reach;
-        self.baked = Baked::new(self.axis, reach, self.support_nm(), smoothing, |nm| {
-            self.at(nm)
-        });
+        self.baked = self.table(reach, smoothing, |nm| self.at(nm));
         self
     }
 
@@ -48,7 +53,7 @@ impl Curve {
     pub(super) fn narrowed_within(
         mut self,
         reach: f64,
-        narrow: impl FnOnce(Fine, &Spectrum) -> Option<Narrow>,
+        narrow: impl FnOnce(Fine, &Spectrum) -> Narrow,
     ) -> Self {
         if !Fine::is_worth_a_look(self.axis, &self.spectrum) {
             return self;
@@ -56,27 +61,25 @@ impl Curve {
         let Some(fine) = Fine::of(self.axis, reach, &self.spectrum, |nm| self.at(nm)) else {
             return self;
         };
-        let judged;
-        let baked = match &self.baked {
-            Some(baked) => Some(baked),
+        // Read as its author wrote it, it is not smoothed either.
+        let as_written;
+        let (baked, noticed) = match &self.baked {
+            Some(baked) => (Some(baked), NOTICED),
             None => {
-                judged = Self::new(&self.spectrum, self.weight, self.limit, self.axis)
-                    .baked_within(reach);
-                judged.baked.as_ref()
+                as_written = self.table(reach, Smoothing::None, |nm| self.at(nm));
+                (as_written.as_ref(), NOTICED_AS_WRITTEN)
             }
         };
-        if baked.is_none_or(|baked| fine.is_served_by(baked)) {
+        if baked.is_none_or(|baked| fine.is_served_by(baked, noticed)) {
             return self;
         }
-        let support = self.support_nm();
-        let means = Baked::new(self.axis, reach, support, Smoothing::Mean, |nm| {
-            fine.near(nm)
-        });
-        if let (Some(means), Some(narrow)) = (means, narrow(fine, &self.spectrum)) {
-            self.baked = Some(means);
-            self.narrow = Some(narrow);
-        }
+        self.baked = self.table(reach, Smoothing::Mean, |nm| fine.near(nm));
+        self.narrow = Some(narrow(fine, &self.spectrum));
         self
+    }
+
+    fn table(&self, reach: f64, smoothing: Smoothing, curve: impl Fn(f64) -> f64) -> Option<Baked> {
+        Baked::new(self.axis, reach, self.support_nm(), smoothing, curve)
     }
 
     /// The exact value at a wavelength of the source's frame.

@@ -45,13 +45,13 @@ impl CurveShader {
     ) -> Self {
         let axis = sensor.axis();
         let (lamps, spectra) = distinct_emitters(scene);
-        let tabulated = settings.accuracy.spectra == Spectra::Grid
-            && XyzTable::serves(axis)
-            && scene.materials.len() * spectra.len() <= MOST_TABLES;
+        let few = scene.materials.len() * spectra.len() <= MOST_TABLES;
+        let tabulated = settings.accuracy.spectra == Spectra::Grid && XyzTable::serves(axis) && few;
         let bake = Bake {
             sensor: &sensor,
             settings,
             tabulated,
+            few,
             quadrature,
             fine: OnceCell::new(),
         };

@@ -1,17 +1,19 @@
 //! Light of curves that are narrower than the wavelengths are apart: lines of lamps and of what
 //! glows, narrow filters, spiky tables.
 //!
-//! The channels of one such curve, and of its product with another under the same shift, are
+//! The channels of one such curve, and of a lamp's light on a paint that moves with it, are
 //! tabulated over ln D from integrals ([`Fine`]). Where one is met by smooth curves under other
-//! shifts, it stands for the sensor's weights ([`Responses`]). Where two meet under shifts of their
-//! own they are integrated as their authors wrote them, over what they share.
+//! shifts, its lines are a few points ([`Sparse`]) and the rest of it stands for the sensor's
+//! weights ([`Responses`]). Where two meet under shifts of their own they are integrated as their
+//! authors wrote them, over what they share; if that is much, one is read by its means
+//! ([`unresolved`](super::unresolved())).
 
 use super::curve::write_shape;
 use super::curves::{CurveShader, add};
 use super::exact::{Reading, Source};
 use super::received::finite;
 use super::table::{XyzTable, interesting};
-use crate::spectrum::{Fine, FineSensor, MOST_ROWS, Responses, Sparse, Spectrum};
+use crate::spectrum::{Fine, FineSensor, Responses, Sparse, Spectrum};
 use crate::trace::{Node, Seen, ShadeTrees};
 use std::sync::{Arc, OnceLock};
 
@@ -36,36 +38,40 @@ pub(super) struct Narrow {
 }
 
 impl Narrow {
-    /// Of a spectrum held as `fine`, for |ln D| up to `reach`; None if that is too much to tabulate.
+    /// Of a spectrum held as `fine`, for |ln D| up to `reach`.
     pub(super) fn new(
         fine: Fine,
         spectrum: &Spectrum,
         reach: f64,
         sensor: Arc<FineSensor>,
-    ) -> Option<Self> {
-        let axis = sensor.axis();
-        let range = interesting(axis, reach, spectrum.support_nm());
-        let rows = (range[1] - range[0]) / (axis.spacing() * Responses::SPACING);
+    ) -> Self {
+        let range = interesting(sensor.axis(), reach, spectrum.support_nm());
         let extent_nm = match *spectrum {
             Spectrum::Gaussian {
                 center_nm,
                 width_nm,
-            } => Some([-REACH, REACH].map(|widths| center_nm + widths * width_nm)),
+            } => Some([-REACH, REACH].map(|widths| (center_nm + widths * width_nm).max(0.0))),
             _ => spectrum.support_nm().filter(|_| fine.ends_dark()),
         };
-        let fits = rows <= MOST_ROWS && XyzTable::fits(axis, reach, spectrum.support_nm());
-        fits.then(|| Self {
+        Self {
             fine,
             parts: OnceLock::new(),
             sensor,
             range,
             extent_nm,
-        })
+        }
     }
 
-    /// The sensor's channels over ln D up to `reach`; `support_nm` is where it is not constant.
-    pub(super) fn table(&self, reach: f64, support_nm: Option<[f64; 2]>) -> XyzTable {
-        XyzTable::of_fine(&self.sensor, &self.fine, reach, support_nm)
+    /// The sensor's channels over ln D up to `reach`, unless they are too many; `support_nm` is where
+    /// it is not constant.
+    pub(super) fn table(&self, reach: f64, support_nm: Option<[f64; 2]>) -> Option<XyzTable> {
+        XyzTable::fits(self.sensor.axis(), reach, support_nm)
+            .then(|| XyzTable::of_fine(&self.sensor, &self.fine, reach, support_nm))
+    }
+
+    /// The wavelength of a place in nodes of the axis, nm.
+    pub(super) fn wavelength_nm(&self, node: f64) -> f64 {
+        self.sensor.wavelength_nm(node)
     }
 
     /// The channels of the curve under a shift, times what is smooth: `at` gives it by the place of a
@@ -95,14 +101,16 @@ impl Narrow {
     fn parts(&self) -> &(Option<Sparse>, Option<Responses>) {
         self.parts.get_or_init(|| {
             let (lines, left) = Sparse::split(self.fine.clone());
-            let left = left.map(|left| Responses::new(&self.sensor, &left, self.range));
-            (lines, left)
+            match left {
+                Some(left) if !Responses::fits(self.sensor.axis(), self.range) => {
+                    (Some(Sparse::with_all(lines, &left)), None)
+                }
+                left => {
+                    let rows = |left| Responses::new(&self.sensor, &left, self.range);
+                    (lines, left.map(rows))
+                }
+            }
         })
-    }
-
-    /// The wavelength of a place in nodes of the axis, nm.
-    pub(super) fn wavelength_nm(&self, node: f64) -> f64 {
-        self.sensor.wavelength_nm(node)
     }
 
     /// Where all its light lies, nm; None if some goes on beyond its last point.

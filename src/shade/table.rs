@@ -1,7 +1,7 @@
 //! The sensor's channels of a curve as a function of ln D (XYZ, or band totals): where one shift
 //! serves everything that makes the curve, no wavelength need be looked at when a ray is shaded.
 
-use crate::spectrum::{Fine, FineSensor, LogAxis, MOST_ROWS, Sensor, catmull_rom};
+use crate::spectrum::{Fine, FineSensor, LogAxis, Sensor, catmull_rom};
 
 /// Entries between two neighbours of the sensor's axis. With 4 the cubic between entries is within
 /// 2.3e-5 of the sum over wavelengths it stands for, for a band of σ = 9 nm (`tests/shading.rs`);
@@ -19,6 +19,9 @@ const COARSEST: f64 = 400.0;
 /// With more entries per unit than this, in a window narrower than a tenth of the visible, tables
 /// over the shifts of a fast scene would take longer to make than sums over wavelengths.
 const MOST: f64 = 1e4;
+
+/// Most entries of a table of a curve that is narrow somewhere.
+const MOST_ENTRIES: f64 = 32_768.0;
 
 /// XYZ (cd/m²), or band totals (W·m⁻²·sr⁻¹), of a curve C(Dλ), W·m⁻²·sr⁻¹·nm⁻¹, tabulated over
 /// ln D.
@@ -38,7 +41,7 @@ impl XyzTable {
     /// Whether a table of a curve that is narrow somewhere is worth making.
     pub(super) fn fits(axis: LogAxis, reach: f64, support_nm: Option<[f64; 2]>) -> bool {
         let [low, high] = interesting(axis, reach, support_nm);
-        (high - low) * per_unit(axis) <= MOST_ROWS
+        (high - low) * per_unit(axis) <= MOST_ENTRIES
     }
 
     /// Distance of entries in ln D.

@@ -1,7 +1,7 @@
 //! Thermal light. A black body at T seen under D is a black body at D·T with the power of D that
 //! beaming leaves over, D⁵ B(Dλ, T) = B(λ, DT), so one curve serves every temperature.
 
-use super::curve::Curve;
+use super::curve::{Curve, write_shape};
 use super::received::{Received, finite};
 use super::table::XyzTable;
 use crate::scene::{self, Thermal};
@@ -171,7 +171,7 @@ impl Glow {
             let nm = shift * axis.wavelength_nm(j as f64);
             self.emissivity.at(nm) * planck::radiance(nm, self.temperature_k)
         };
-        super::curve::write_shape(value, out)
+        write_shape(value, out)
     }
 
     /// XYZ, or band totals, under the Doppler factor `d`.
@@ -191,6 +191,16 @@ impl Glow {
         let factor = (self.scale * received.radiance(d)).min(f64::MAX);
         if let Some(table) = &self.table {
             return table.at(shift.ln()).map(|v| v * factor);
+        }
+        if let Some(narrow) = self.emissivity.narrow() {
+            let seen = self.seen(d, received);
+            let black = |node| seen.black_at(narrow.wavelength_nm(node));
+            return narrow.times(shift.ln(), black, scratch, |shape| {
+                write_shape(
+                    |j| seen.black_at(sensor.axis().wavelength_nm(j as f64)),
+                    shape,
+                )
+            });
         }
         let peak = self.read(shift, sensor.axis(), scratch);
         sensor.xyz_of_shape(scratch).map(|v| v * peak * factor)

@@ -9,7 +9,7 @@ use super::bake::{Reflecting, Settings};
 use super::curves::CurveShader;
 use super::exact::Reading;
 use super::shader;
-use crate::scene::Scene;
+use crate::scene::{Light, Material, Scene};
 use crate::shot::Spectra;
 use crate::spectrum::{Fine, LogAxis, Spectrum};
 use std::fmt;
@@ -55,20 +55,20 @@ impl fmt::Display for Unresolved {
 /// Most that a shot may have.
 const MOST_WAVELENGTHS: f64 = 4096.0;
 
-/// All such pairs of a scene; none where curves do not shift or are not held over wavelengths.
+/// All such pairs of a scene, each lamp's spectrum once; none where curves do not shift or are not
+/// held over wavelengths, and none with a lamp that rests with all bodies.
 ///
-/// Costs nothing where no curve has anything narrow.
+/// Costs next to nothing where lamps or surfaces have nothing narrow.
 pub fn unresolved(scene: &Scene, settings: &Settings<'_>) -> Vec<Unresolved> {
     let axis = LogAxis::new(
         settings.sensor.window,
         settings.accuracy.wavelengths as usize,
     );
     let grid = matches!(settings.accuracy.spectra, Spectra::Grid | Spectra::Spline);
-    let looked_at = scene
-        .lights
-        .iter()
-        .any(|light| Fine::is_worth_a_look(axis, &light.spectrum));
-    if !settings.called.doppler || !grid || !looked_at {
+    let is_fine = |spectrum: &Spectrum| Fine::is_worth_a_look(axis, spectrum);
+    let lamps = scene.lights.iter().any(|light| is_fine(&light.spectrum));
+    let surfaces = scene.materials.iter().flat_map(reflectances).any(is_fine);
+    if !settings.called.doppler || !grid || !lamps || !surfaces {
         return Vec::new();
     }
     let exact = shader::quadrature(settings.sensor);
@@ -76,16 +76,22 @@ pub fn unresolved(scene: &Scene, settings: &Settings<'_>) -> Vec<Unresolved> {
     let shader = CurveShader::new(scene, settings, sensor, &exact);
     let mut pairs = Vec::new();
     for (material, curves) in scene.materials.iter().zip(&shader.surfaces) {
-        for (light, (emitter, _)) in scene.lights.iter().zip(&shader.lamps) {
+        for emitter in 0..shader.emitters.len() {
+            let mut own = scene.lights.iter().zip(&shader.lamps);
+            let moving = own.find(|(light, lamp)| lamp.0 == emitter && moves(scene, light));
+            let Some((light, _)) = moving else { continue };
             let errors = curves.reflecting().flatten();
-            let errors = errors.filter_map(|term| shader.lost(term, *emitter));
+            let errors = errors.filter_map(|term| shader.lost(term, emitter));
             let error = errors.fold(0.0, f64::max);
             if error > TOLD {
                 pairs.push(Unresolved {
                     material: material.name.clone(),
                     light: light.name.clone(),
                     error,
-                    wavelengths: [axis.count() as f64, enough(axis, &light.spectrum)],
+                    wavelengths: [
+                        axis.count() as f64,
+                        enough(axis, reflectances(material).chain([&*light.spectrum])),
+                    ],
                 });
             }
         }
@@ -93,10 +99,24 @@ pub fn unresolved(scene: &Scene, settings: &Settings<'_>) -> Vec<Unresolved> {
     pairs
 }
 
-/// Wavelengths that are as close as the closest points of a lamp.
-fn enough(axis: LogAxis, lamp: &Spectrum) -> f64 {
+/// The spectra of what a material reflects of lamps.
+fn reflectances(material: &Material) -> impl Iterator<Item = &Spectrum> {
+    let highlight = material.highlight.as_ref().map(|h| &h.reflectance);
+    let terms = material.diffuse.iter().chain(highlight);
+    terms.map(|term| &*term.spectrum)
+}
+
+/// Whether a lamp and some body are on worldlines of their own.
+fn moves(scene: &Scene, light: &Light) -> bool {
+    let mut bodies = scene.geometry.instances.iter();
+    bodies.any(|body| body.worldline as usize != light.worldline)
+}
+
+/// Wavelengths that are half as far apart as the closest points of spectra.
+fn enough<'a>(axis: LogAxis, spectra: impl Iterator<Item = &'a Spectrum>) -> f64 {
     let width = axis.spacing() * axis.count() as f64;
-    Fine::finest(lamp).map_or(f64::INFINITY, |finest| (2.0 * width / finest).ceil())
+    let finest = spectra.filter_map(Fine::finest).min_by(f64::total_cmp);
+    finest.map_or(f64::INFINITY, |finest| (2.0 * width / finest).ceil())
 }
 
 impl CurveShader {

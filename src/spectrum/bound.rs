@@ -152,7 +152,16 @@ impl GridBound {
         sum + 1.25 * (phases + rounding) + tables
     }
 
-    /// Where a curve is narrow: two that are are integrated together.
+    /// All light of a product of which a narrow curve is one: what is at stake where another is, and
+    /// they are not integrated together.
+    pub fn all_light(&self, factors: &[Roughness]) -> f64 {
+        let window = self.spacing * self.wavelengths;
+        let area = factors.iter().map(|f| f.area).fold(window, f64::min);
+        let most = |kernel: &Kernel| kernel.narrow.most();
+        SAFETY * area * self.channels.iter().map(most).fold(0.0, f64::max)
+    }
+
+    /// Where a curve is narrow. Two that are count as integrated together.
     fn narrow(&self, kernel: &Kernel, factors: &[Roughness]) -> f64 {
         let narrow = factors.iter().filter(|f| f.narrow);
         let area = narrow.map(|f| f.area).fold(f64::INFINITY, f64::min);

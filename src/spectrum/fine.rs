@@ -30,10 +30,6 @@ const DARK: f64 = 1e-25;
 /// Curves whose finest feature is this many spacings wide need no second look.
 const WIDE: f64 = 2.0;
 
-/// Share of local light that a grid may lose or add before a curve counts as narrow: half of what
-/// pictures of a ramp may flicker by.
-const NOTICED: f64 = 1e-3;
-
 /// How much the weight rises from one wavelength to the next where a grid is tried: the eye's
 /// green and blue do so on their flanks.
 const SLOPE: f64 = 0.15;
@@ -108,7 +104,7 @@ impl Fine {
         })
     }
 
-    /// Holds weight × spectrum, at most `limit`.
+    /// Holds a curve that bends, and is narrow, where `spectrum` does.
     pub fn of(
         axis: LogAxis,
         reach: f64,
@@ -145,8 +141,8 @@ impl Fine {
 
     /// Whether sums over the axis of `baked`, the same curve, are as good: whether under a weight
     /// that falls to nothing six spacings to either side, and rises by [`SLOPE`] a spacing, the
-    /// sum is that of the curve but for [`NOTICED`], wherever the weight is put.
-    pub fn is_served_by(&self, baked: &Baked) -> bool {
+    /// sum is that of the curve but for the share `noticed`, wherever the weight is put.
+    pub fn is_served_by(&self, baked: &Baked, noticed: f64) -> bool {
         const REACH: i64 = 6;
         const STRIDE: usize = 8;
         let phases = PHASES as i64;
@@ -176,7 +172,7 @@ impl Fine {
         sums.iter().enumerate().all(|(i, [exact, sum])| {
             let off = (sum - exact).abs();
             let near = &sums[i.saturating_sub(about)..(i + about).min(sums.len())];
-            off <= NOTICED * exact || near.iter().any(|[exact, _]| off <= NOTICED * exact)
+            off <= noticed * exact || near.iter().any(|[exact, _]| off <= noticed * exact)
         })
     }
 
@@ -190,11 +186,6 @@ impl Fine {
         for (mean, light) in self.means[start..].iter_mut().zip(light) {
             *mean -= light;
         }
-    }
-
-    /// Whether there is nothing of it.
-    pub(super) fn is_dark(&self) -> bool {
-        self.ends_dark() && self.means.iter().all(|mean| *mean <= 0.0)
     }
 
     /// Number of the first mean's node.

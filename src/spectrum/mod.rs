@@ -38,7 +38,7 @@ pub use quadrature::Quadrature;
 pub use roughness::Roughness;
 pub use sampled::Sampled;
 pub use sensor::{Sensor, catmull_rom};
-pub use through::{MOST_ROWS, Responses, Sparse};
+pub use through::{Responses, Sparse};
 pub use tinted::Tinted;
 pub use uplift::{ColoredLight, Uplift};
 

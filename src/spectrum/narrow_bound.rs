@@ -54,6 +54,11 @@ impl NarrowKernel {
         self.most * (cubic + baked + between) + self.rise * between
     }
 
+    /// The largest weight.
+    pub(super) fn most(&self) -> f64 {
+        self.most
+    }
+
     /// Without any.
     pub(super) fn own(&self) -> f64 {
         // A cubic swings to either side of a jump by an eighth of it.

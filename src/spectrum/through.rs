@@ -2,7 +2,7 @@
 //! narrow one is a line or some, else by a table of what each wavelength then counts for.
 
 use super::fine::{Fine, FineSensor};
-use super::log_grid::{LANES, PHASES};
+use super::log_grid::{LANES, LogAxis, PHASES};
 use super::sensor::catmull_rom;
 
 /// Nodes between two rows of [`Responses`]: they are an eighth of a spacing apart. A channel is
@@ -10,8 +10,8 @@ use super::sensor::catmull_rom;
 /// 1e-4 of the eye's weights.
 const ROW_NODES: i64 = 4;
 
-/// Most rows of [`Responses`], and entries of tables made of fine curves: some 30 MB.
-pub const MOST_ROWS: f64 = 32_768.0;
+/// Most numbers in [`Responses`], 32 MB.
+const MOST_NUMBERS: f64 = 8_388_608.0;
 
 /// Most points of [`Sparse`]: with more a table is as quick.
 const MOST_POINTS: usize = 24;
@@ -23,6 +23,10 @@ const CHUNK: usize = PHASES;
 
 /// Share of a curve's light that a chunk may hold and be left out.
 const FAINT: f64 = 1e-9;
+
+/// Share of a curve's light that may be left beside its lines and be nothing: what an opened bell
+/// keeps in its tails.
+const REST: f64 = 1e-6;
 
 /// Part of what stands in a chunk above the curve beside it, from which on that is a line.
 const STANDS_OUT: f64 = 0.05;
@@ -65,8 +69,19 @@ impl Sparse {
             }
             start = end;
         }
+        let rest: f64 = left.means().iter().sum();
+        let all: f64 = fine.means().iter().sum();
+        let is_dark = left.ends_dark() && rest <= REST * all;
         let sparse = (!points.is_empty()).then_some(Self { points });
-        (sparse, (!left.is_dark()).then_some(left))
+        (sparse, (!is_dark).then_some(left))
+    }
+
+    /// These points and, where they are too many for a table, one for each node of a curve.
+    pub fn with_all(lines: Option<Self>, rest: &Fine) -> Self {
+        let mut points = lines.map_or_else(Vec::new, |lines| lines.points);
+        let nodes = (rest.first()..).zip(rest.means());
+        points.extend(nodes.map(|(node, mean)| [node as f64, *mean]));
+        Self { points }
     }
 }
 
@@ -181,6 +196,12 @@ pub struct Responses {
 impl Responses {
     /// Distance of rows in units of an axis' spacing.
     pub const SPACING: f64 = ROW_NODES as f64 / PHASES as f64;
+
+    /// Whether a table from `low` to `high` is small enough to be made.
+    pub fn fits(axis: LogAxis, [low, high]: [f64; 2]) -> bool {
+        let rows = (high - low) / (axis.spacing() * Self::SPACING);
+        3.0 * rows * axis.count() as f64 <= MOST_NUMBERS
+    }
 
     /// Tabulates a curve for ln D from `low` to `high`, held beyond.
     pub fn new(sensor: &FineSensor, fine: &Fine, [low, high]: [f64; 2]) -> Self {
