@@ -173,7 +173,7 @@ fn a_plan_is_told_frame_by_frame_and_its_lines_are_not_held() {
         }
         bytes += line.len();
         // The first and the last are a whole plan without the others.
-        if number < 2 || number >= FRAMES {
+        if !(2..FRAMES).contains(&number) {
             text += &line;
         }
         if number == FRAMES - 1000 {
