@@ -2,7 +2,6 @@
 //! cuts change nothing.
 #![expect(
     clippy::unwrap_used,
-    clippy::panic,
     reason = "a test that cannot be set up has failed"
 )]
 

@@ -173,7 +173,7 @@ fn a_plan_is_told_frame_by_frame_and_its_lines_are_not_held() {
         }
         bytes += line.len();
         // The first and the last are a whole plan without the others.
-        if number < 2 || number >= FRAMES {
+        if !(2..FRAMES).contains(&number) {
             text += &line;
         }
         if number == FRAMES - 1000 {
@@ -211,16 +211,16 @@ fn peak_kib(process: u32) -> Option<u64> {
 }
 
 #[test]
-fn the_plan_in_words_says_the_same_of_a_million_frames_once() {
-    let told = Desk::new(1_000_000, "").call("plan huge.toml");
+fn the_plan_in_words_says_the_same_of_many_frames_once() {
+    let told = Desk::new(200_000, "").call("plan huge.toml");
     assert_eq!(told.status, 0, "{}", told.err);
     assert!(
-        told.out.contains("1000000 frames, 8 x 8 pixels"),
+        told.out.contains("200000 frames, 8 x 8 pixels"),
         "{}",
         told.out
     );
     assert!(
-        told.out.contains("frames 2-1000000  missing"),
+        told.out.contains("frames 2-200000  missing"),
         "{}",
         told.out
     );

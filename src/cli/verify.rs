@@ -95,7 +95,7 @@ impl Serialize for Each<'_> {
             ..finding.clone()
         };
         serializer.collect_seq(findings.iter().flat_map(|finding| {
-            let run = finding.last.map(|_| finding.frames());
+            let run = finding.last.and_then(|_| finding.frames());
             let alone = run.is_none().then(|| finding.clone());
             let each = run.into_iter().flatten();
             each.map(move |frame| one(finding, frame)).chain(alone)

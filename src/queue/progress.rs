@@ -345,14 +345,17 @@ fn write_line(out: &mut impl Write, line: &str) -> io::Result<()> {
 mod tests {
     use super::*;
 
-    #[test]
-    fn the_plain_line_tells_the_deed_and_why() {
-        let files = [PathBuf::from("out/name/name.0003.png")];
-        let rendered = |because: Option<&str>| Deed::Rendered {
+    fn rendered(because: Option<&str>) -> Deed {
+        Deed::Rendered {
             because: because.map(str::to_owned),
             seconds: 1.2449,
             cut: 0.0,
-        };
+        }
+    }
+
+    #[test]
+    fn the_plain_line_tells_the_deed_and_why() {
+        let files = [PathBuf::from("out/name/name.0003.png")];
         assert_eq!(
             line(3, 49, &rendered(None), &files),
             "frame 3/49  rendered  1.24 s  name.0003.png"
@@ -379,12 +382,7 @@ mod tests {
         progress.start(&[], 3, 10.0);
         progress.advance(2.0);
         assert_eq!(share(), 0.2);
-        let deed = Deed::Rendered {
-            because: None,
-            seconds: 0.0,
-            cut: 0.0,
-        };
-        progress.frame(Path::new("a.toml"), (1, &deed), &[], 4.0);
+        progress.frame(Path::new("a.toml"), (1, &rendered(None)), &[], 4.0);
         assert_eq!(share(), 0.4);
         progress.advance(3.0);
         progress.rest();

@@ -58,7 +58,7 @@ fn quoted(findings: &[Finding]) -> String {
     let mut words: Vec<String> = shown.collect();
     if findings.len() > QUOTED {
         let rest = findings[QUOTED..].iter();
-        let frames: usize = rest.map(|f| f.frames().count().max(1)).sum();
+        let frames: usize = rest.map(|f| f.frames().map_or(1, Iterator::count)).sum();
         words.push(format!("and {frames} more"));
     }
     words.join("; ")

@@ -49,13 +49,10 @@ pub struct Finding {
 }
 
 impl Finding {
-    /// The frames of which it is said.
-    pub fn frames(&self) -> RangeInclusive<u32> {
-        match (self.frame, self.last) {
-            (Some(first), last) => first..=last.unwrap_or(first),
-            // Empty.
-            (None, _) => 1..=0,
-        }
+    /// The frames of which it is said; none if it is of no frame of this shot.
+    pub fn frames(&self) -> Option<RangeInclusive<u32>> {
+        let first = self.frame?;
+        Some(first..=self.last.unwrap_or(first))
     }
 }
 
@@ -77,7 +74,7 @@ pub struct Report {
 impl Report {
     /// How many frames have nothing wrong with them.
     pub fn sound(&self) -> u32 {
-        let mut unsound: Vec<_> = self.findings.iter().map(Finding::frames).collect();
+        let mut unsound: Vec<_> = self.findings.iter().filter_map(Finding::frames).collect();
         unsound.sort_unstable_by_key(|frames| *frames.start());
         unsound.dedup();
         let count = unsound.iter().map(|frames| frames.clone().count() as u32);

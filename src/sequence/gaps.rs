@@ -33,7 +33,7 @@ mod tests {
     #[test]
     fn gaps_and_what_is_there_are_all_frames() {
         assert_eq!(gaps([], 5), [1..=5]);
-        assert_eq!(gaps([1, 2, 3], 3), [0..=0; 0]);
+        assert!(gaps([1, 2, 3], 3).is_empty());
         assert_eq!(
             gaps([2, 500_000], 1_000_000),
             [1..=1, 3..=499_999, 500_001..=1_000_000]
