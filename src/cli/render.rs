@@ -8,6 +8,7 @@ use crate::queue::{
 };
 use crate::sequence::foreseen;
 use crate::shot::{self, LARGEST_SIDE, Mistakes, Shot};
+use indexmap::IndexSet;
 use std::collections::HashMap;
 use std::path::Path;
 use std::sync::Arc;
@@ -205,12 +206,7 @@ pub(super) fn warn(prepared: &Prepared) {
 /// What the shot's files ask for and the picture will not show, each once, and what its sensor
 /// cannot tell apart.
 pub(super) fn warnings(prepared: &Prepared) -> Vec<String> {
-    let mut seen: Vec<(&Path, String)> = Vec::new();
-    for warning in prepared.library.warnings(&prepared.shot) {
-        if !seen.contains(&warning) {
-            seen.push(warning);
-        }
-    }
+    let seen: IndexSet<(&Path, String)> = prepared.library.warnings(&prepared.shot).collect();
     let line = |(file, warning): (&Path, String)| format!("{}: {warning}", file.display());
     let of_files = seen.into_iter().map(line);
     let shot = prepared.shot.path.display();

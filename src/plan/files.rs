@@ -1,11 +1,12 @@
 //! Hashes of the files that a shot reads: models with all that they name, spectra, skies, stars.
 
 use crate::shot::{
-    FileError, GltfJson, MODEL_BYTES, Mistakes, ModelFiles, Opened, Shot, each_obj_line,
+    FileError, GltfJson, MODEL_BYTES, Mistakes, ModelFile, ModelFiles, Shot, each_obj_line,
     keyword_and_rest,
 };
 use blake3::{Hash, Hasher};
 use indexmap::{IndexMap, IndexSet};
+use std::collections::hash_map::{Entry, HashMap};
 use std::convert::Infallible;
 use std::fs::File;
 use std::io::{self, BufRead, BufReader, Read};
@@ -91,35 +92,49 @@ fn model(shot: &Shot, file: &Path, path: &Path) -> Result<Digest, FileError> {
     let is_obj = path
         .extension()
         .is_some_and(|e| e.eq_ignore_ascii_case("obj"));
-    let mut parts: Vec<(String, Opened)> = Vec::new();
+    let beside = file.parent().unwrap_or(Path::new(""));
+    let mut hashes = HashMap::new();
+    let mut parts = Vec::new();
+    let mut add = |name: String, part: ModelFile| -> Result<(), FileError> {
+        let hash = match hashes.entry(part.path.clone()) {
+            Entry::Occupied(known) => *known.get(),
+            Entry::Vacant(free) => *free.insert(part.read(|file| rest(Hasher::new(), file))?),
+        };
+        let name = beside.join(name).display().to_string();
+        parts.push((name, hash.to_hex().to_string()));
+        Ok(())
+    };
     let hash = if is_obj {
         let (hash, libraries) = opened.read(obj)?;
-        for name in libraries {
-            let found = files.libraries(&name)?.into_iter();
-            parts.extend(found.filter_map(|library| library.found));
+        for line in libraries {
+            let libraries = files.libraries(&line)?.into_iter();
+            for (name, part) in libraries.filter_map(|library| library.found) {
+                add(name, part)?;
+            }
         }
         hash
     } else {
         let (hash, uris) = opened.read(gltf)?;
         for uri in uris {
-            // Whether a buffer is used, and so missed, only its reader knows.
-            if let Ok(part) = files.part_by_uri(&uri) {
-                parts.push((uri, part));
+            // Which buffers are used, and so missed, only their reader knows: each may be the only
+            // one, with all the bytes to itself.
+            match files.clone().part_by_uri(&uri) {
+                Ok(Some(part)) => add(uri, part)?,
+                Ok(None)
+                | Err(
+                    FileError::Outside { .. }
+                    | FileError::Uri { .. }
+                    | FileError::NotAFile { .. }
+                    | FileError::TooLarge { .. },
+                ) => {}
+                Err(error) => return Err(error),
             }
         }
         hash
     };
-    let beside = file.parent().unwrap_or(Path::new(""));
-    let parts = parts.into_iter().map(|(name, opened)| {
-        let hash = opened.read(|file| rest(Hasher::new(), file))?;
-        Ok((
-            beside.join(name).display().to_string(),
-            hash.to_hex().to_string(),
-        ))
-    });
     Ok(Digest {
         hash: hash.to_hex().to_string(),
-        parts: parts.collect::<Result<_, FileError>>()?,
+        parts,
     })
 }
 

@@ -8,6 +8,9 @@ use std::path::{Component, Path, PathBuf};
 pub(super) const ESCAPES: &str =
     "write / in paths, on every system: in double quotes \\ begins an escape";
 
+/// Most parts of a path that are looked for where the others lead nowhere.
+const MOST_PARTS: usize = 8;
+
 /// Most names of a folder that are looked at.
 const MOST_NAMES: usize = 10_000;
 
@@ -107,10 +110,11 @@ fn near(folder: &Path, name: &str, is_file: bool) -> Option<String> {
     alike.cloned().or_else(spelt)
 }
 
-/// The file whose path is the end of another: what was left beside the shot when it moved.
+/// The file whose path is the end of another, the longest that there is: what was left beside the shot when it moved.
 fn beside(folder: &Path, file: &Path) -> Option<PathBuf> {
     let parts: Vec<Component<'_>> = file.components().collect();
-    let ends = (1..parts.len()).map(|from| parts[from..].iter().collect::<PathBuf>());
+    let longest = parts.len().saturating_sub(MOST_PARTS).max(1);
+    let ends = (longest..parts.len()).map(|from| parts[from..].iter().collect::<PathBuf>());
     ends.into_iter().find_map(|end| meant(folder, &end))
 }
 

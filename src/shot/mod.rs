@@ -55,7 +55,7 @@ pub use gltf_json::{GltfJson, TextFault};
 pub use light::{Light, LightKind};
 pub use load::{MAX_BYTES, load, parse};
 pub use mistake::{Mistake, Mistakes, Places};
-pub use model_files::{FileError, Library, MODEL_BYTES, ModelFiles, Opened};
+pub use model_files::{FileError, Library, MODEL_BYTES, ModelFile, ModelFiles};
 pub use obj_lines::{
     OBJ_KEYWORDS, before_comment, each_line, each_obj_line, is_utf16, keyword_and_rest,
 };

@@ -3,6 +3,7 @@
 
 mod libraries;
 
+use super::names::short;
 use super::nearby::nearby;
 use indexmap::IndexSet;
 use std::fs::{self, File};
@@ -11,20 +12,21 @@ use std::path::{Component, Path, PathBuf};
 
 pub use libraries::Library;
 
+/// Material libraries that an OBJ file may name.
+const MAX_LIBRARIES: usize = 1000;
+
 /// Bytes read for one model at most, files that it names included: 2 GiB.
 pub const MODEL_BYTES: u64 = 2 << 30;
 
-/// Longest part of a URI that a message repeats.
-const SHOWN_URI: usize = 80;
-
 /// Access to the disk on behalf of one model.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub struct ModelFiles {
     /// The model file, as it was called.
     pub model: PathBuf,
     folder: PathBuf,
     may_read: Vec<PathBuf>,
     bytes_left: u64,
+    libraries_left: usize,
 }
 
 /// Why a file of a model cannot be read.
@@ -89,17 +91,26 @@ pub enum FileError {
         /// A file of nearly that name.
         meant: Option<String>,
     },
+    /// More material libraries than are looked for.
+    #[error("model `{}` names more material libraries than the {limit} that are read: put its materials into one .mtl file", file.display())]
+    Libraries {
+        /// The model file.
+        file: PathBuf,
+        /// How many are allowed.
+        limit: usize,
+    },
 }
 
-/// A file of a model, open.
+/// A file of a model that may be read; it is opened when it is, so that any number may wait.
 #[derive(Debug)]
-pub struct Opened {
-    file: File,
+pub struct ModelFile {
+    /// Where it is, links followed.
+    pub path: PathBuf,
     length: u64,
     called: PathBuf,
 }
 
-impl Opened {
+impl ModelFile {
     /// All of its bytes.
     ///
     /// # Errors
@@ -119,25 +130,25 @@ impl Opened {
         self,
         work: impl FnOnce(&mut BufReader<std::io::Take<File>>) -> std::io::Result<T>,
     ) -> Result<T, FileError> {
-        let Self {
-            file,
-            length,
-            called,
-        } = self;
-        let mut file = BufReader::with_capacity(1 << 16, file.take(length));
-        work(&mut file).map_err(|source| FileError::Read {
-            file: called,
+        let done = File::open(&self.path).and_then(|file| {
+            work(&mut BufReader::with_capacity(
+                1 << 16,
+                file.take(self.length),
+            ))
+        });
+        done.map_err(|source| FileError::Read {
+            file: self.called,
             source,
         })
     }
 }
 
 impl ModelFiles {
-    /// Opens the model file itself.
+    /// Finds the model file itself.
     ///
     /// # Errors
     /// When it is not there, no file, or too large.
-    pub fn open(path: &Path, may_read: &[&Path]) -> Result<(Self, Opened), FileError> {
+    pub fn open(path: &Path, may_read: &[&Path]) -> Result<(Self, ModelFile), FileError> {
         let canonical = path.canonicalize().map_err(|source| match source.kind() {
             ErrorKind::NotFound => FileError::Missing {
                 file: path.to_owned(),
@@ -161,67 +172,65 @@ impl ModelFiles {
             folder,
             may_read: allowed,
             bytes_left: MODEL_BYTES,
+            libraries_left: MAX_LIBRARIES,
         };
-        let opened = files.opened(&canonical, path)?;
-        Ok((files, opened))
+        let file = files.counted(&canonical, path)?;
+        Ok((files, file))
     }
 
-    /// Opens a file that the model names, relative to the model's folder.
-    ///
-    /// # Errors
-    /// When the model may not read it, or it is not there, no file, or too large.
-    pub fn part(&mut self, name: &str) -> Result<Opened, FileError> {
+    /// Finds a file that the model names, relative to the model's folder; None where it is not there.
+    fn part(&mut self, name: &str) -> Result<Option<ModelFile>, FileError> {
         if is_absolute(name) {
             return Err(self.bad_uri(name, "absolute or remote"));
         }
         let outside = || FileError::Outside {
             file: self.model.clone(),
-            uri: shorten(name),
+            uri: short(name),
         };
         // By the letters first, so that the message does not tell what exists elsewhere.
         if !self.allows(&lexical(&self.folder.join(name))) {
             return Err(outside());
         }
-        let canonical = self.folder.join(name).canonicalize();
-        let canonical = canonical.map_err(|_| FileError::MissingPart {
-            file: self.model.clone(),
-            uri: shorten(name),
-            meant: nearby(&self.folder, name, |folder| self.allows(folder)),
-        })?;
+        let Ok(canonical) = self.folder.join(name).canonicalize() else {
+            return Ok(None);
+        };
         if !self.allows(&canonical) {
             return Err(outside());
         }
-        self.opened(&canonical, Path::new(name))
+        self.counted(&canonical, Path::new(name)).map(Some)
     }
 
-    /// Opens a file that a glTF file names by a URI: percent-encoded or, as not all exporters have
-    /// it, as the file is called, with `/` or `\\` between folders.
+    /// Finds a file that a glTF file names by a URI: percent-encoded or, as not all exporters have
+    /// it, as the file is called, with `/` or `\\` between folders. None where it is not there.
     ///
     /// # Errors
-    /// As [`ModelFiles::part`].
-    pub fn part_by_uri(&mut self, uri: &str) -> Result<Opened, FileError> {
-        let decoded = urlencoding::decode(uri).unwrap_or(uri.into());
-        let mut missing = None;
-        let slashed = |name: &str| name.replace('\\', "/");
-        let names = [&*decoded, uri].map(str::to_owned);
-        let spellings = names
-            .clone()
-            .into_iter()
-            .chain(names.iter().map(|n| slashed(n)));
-        for name in spellings.collect::<IndexSet<String>>() {
-            match self.part(&name) {
-                Err(error @ FileError::MissingPart { .. }) => missing = missing.or(Some(error)),
-                opened => return opened,
+    /// When the model may not read it, or it is no file, or too large.
+    pub fn part_by_uri(&mut self, uri: &str) -> Result<Option<ModelFile>, FileError> {
+        let names = [decoded(uri), uri.to_owned()];
+        let slashed = names.clone().map(|name| name.replace('\\', "/"));
+        for name in IndexSet::<String>::from_iter(names.into_iter().chain(slashed)) {
+            if let Some(file) = self.part(&name)? {
+                return Ok(Some(file));
             }
         }
-        Err(missing.unwrap_or_else(|| self.bad_uri(uri, "no file name")))
+        Ok(None)
+    }
+
+    /// The error for a URI that leads to no file, with the one that was perhaps meant.
+    pub fn missing(&self, uri: &str) -> FileError {
+        let name = decoded(uri);
+        FileError::MissingPart {
+            file: self.model.clone(),
+            uri: short(&name),
+            meant: nearby(&self.folder, &name, |folder| self.allows(folder)),
+        }
     }
 
     /// The error for a file name that cannot be used.
     fn bad_uri(&self, uri: &str, problem: &'static str) -> FileError {
         FileError::Uri {
             file: self.model.clone(),
-            uri: shorten(uri),
+            uri: short(uri),
             problem,
         }
     }
@@ -230,7 +239,7 @@ impl ModelFiles {
         self.may_read.iter().any(|folder| path.starts_with(folder))
     }
 
-    fn opened(&mut self, canonical: &Path, called: &Path) -> Result<Opened, FileError> {
+    fn counted(&mut self, canonical: &Path, called: &Path) -> Result<ModelFile, FileError> {
         let failed = |source| FileError::Read {
             file: called.to_owned(),
             source,
@@ -250,8 +259,8 @@ impl ModelFiles {
                 bytes: MODEL_BYTES - self.bytes_left + length,
                 limit: MODEL_BYTES,
             })?;
-        Ok(Opened {
-            file: File::open(canonical).map_err(failed)?,
+        Ok(ModelFile {
+            path: canonical.to_owned(),
             length,
             called: called.to_owned(),
         })
@@ -259,8 +268,12 @@ impl ModelFiles {
 }
 
 fn did_you_mean(meant: &Option<String>) -> String {
-    let hint = |name| format!("did you mean `{}`? ", shorten(name));
+    let hint = |name| format!("did you mean `{}`? ", short(name));
     meant.as_deref().map_or_else(String::new, hint)
+}
+
+fn decoded(uri: &str) -> String {
+    urlencoding::decode(uri).map_or_else(|_| uri.to_owned(), Into::into)
 }
 
 /// Whether a name is a path from a root, of this system or another, or a URL.
@@ -287,11 +300,4 @@ fn lexical(path: &Path) -> PathBuf {
         }
     }
     out
-}
-
-fn shorten(uri: &str) -> String {
-    match uri.char_indices().nth(SHOWN_URI) {
-        Some((end, _)) => format!("{}…", &uri[..end]),
-        None => uri.to_owned(),
-    }
 }

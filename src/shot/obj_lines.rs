@@ -109,7 +109,7 @@ pub fn each_obj_line<E>(
     reader: impl BufRead,
     mut each: impl FnMut(usize, &str) -> Result<(), E>,
 ) -> io::Result<Result<(), E>> {
-    let (mut begun, mut last) = (String::new(), 0);
+    let (mut begun, mut keyword, mut last) = (String::new(), String::new(), 0);
     let done = each_line(reader, |number, line| {
         if !begun.is_empty() && OBJ_KEYWORDS.contains(&keyword_and_rest(line).0) {
             each(last, uncontinued(&begun))?;
@@ -118,14 +118,19 @@ pub fn each_obj_line<E>(
         last = number;
         let is_first = begun.is_empty();
         let goes_on = line.ends_with('\\') && {
-            let keyword = keyword_and_rest(if is_first { line } else { &begun }).0;
-            !keyword.starts_with('#') && before_comment(keyword, line) == line
+            // Of the first part that holds anything.
+            if begun.len() < 2 {
+                keyword.clear();
+                keyword.push_str(keyword_and_rest(line).0.trim_end_matches('\\'));
+            }
+            !keyword.starts_with('#') && before_comment(&keyword, line) == line
         };
         if is_first && !goes_on {
             return each(number, line);
         }
         begun.pop();
-        begun.push_str(if is_first { "" } else { " " });
+        let parts_meet = !begun.is_empty() && !matches!(line, "" | "\\");
+        begun.push_str(if parts_meet { " " } else { "" });
         begun.push_str(line);
         if !goes_on {
             each(number, &begun)?;

@@ -202,3 +202,61 @@ fn broken_models_have_hashes_all_the_same() {
         );
     }
 }
+
+/// A shot of one model, and the glTF file of it that names these buffers.
+fn of_buffers(desk: &Desk, uris: impl Iterator<Item = String>) -> Digests {
+    let buffers: Vec<String> = uris
+        .map(|uri| format!(r#"{{"byteLength":1,"uri":"{uri}"}}"#))
+        .collect();
+    let json = format!(r#"{{"buffers":[{}]}}"#, buffers.join(","));
+    // Of a known length, so that it is known how many bytes are left.
+    desk.put("m.gltf", format!("{json:60000}"));
+    Digests::read(&desk.shot("[[model]]\nfile = \"m.gltf\"\n[camera]\n")).unwrap()
+}
+
+#[test]
+fn a_part_counts_behind_others_that_together_exceed_what_is_read() {
+    const NAMES: u64 = 32;
+    let desk = Desk::new();
+    let zeros = std::fs::File::create(desk.path("zeros.bin")).unwrap();
+    // One file under as many names that fewer bytes are left than the last has.
+    zeros.set_len(((2 << 30) - 60_000) / NAMES).unwrap();
+    let uris = || {
+        let names = (0..NAMES as usize).map(|i| format!("{}zeros.bin", "./".repeat(i)));
+        names.chain(["used.bin".to_owned()])
+    };
+    desk.put("used.bin", [1; 42]);
+    let before = of_buffers(&desk, uris());
+    assert_eq!(before.iter().count() as u64, 1 + NAMES + 1);
+    let mut changed = [1; 42];
+    changed[41] = 2;
+    desk.put("used.bin", changed);
+    assert_ne!(of_buffers(&desk, uris()), before);
+}
+
+#[test]
+fn a_part_that_alone_exceeds_what_is_read_has_no_hash_and_the_next_has() {
+    let desk = Desk::new();
+    let huge = std::fs::File::create(desk.path("huge.bin")).unwrap();
+    huge.set_len((2 << 30) - 1).unwrap();
+    desk.put("used.bin", [1]);
+    let digests = of_buffers(
+        &desk,
+        ["huge.bin", "used.bin"].map(str::to_owned).into_iter(),
+    );
+    let names: Vec<String> = digests.iter().map(|(name, _)| name).collect();
+    assert_eq!(names, ["m.gltf", "used.bin"]);
+}
+
+#[test]
+fn a_part_counts_behind_more_than_may_be_open_at_once() {
+    let desk = Desk::new();
+    let uris = || (0..1200).map(|i| format!("{i}.bin"));
+    for uri in uris() {
+        desk.put(&uri, [1]);
+    }
+    let before = of_buffers(&desk, uris());
+    assert_eq!(before.iter().count(), 1 + 1200);
+    desk.put("1199.bin", [2]);
+    assert_ne!(of_buffers(&desk, uris()), before);
+}

@@ -303,8 +303,8 @@ fn broken_obj_lines_are_refused_with_their_number() {
         ),
         ("v 0 0 0\nvn 0 0 1\nf 1//2 1//2 1//2\n", "normal 2"),
         (
-            "v 0 0 0\nvt 0 0\nf 1/-9223372036854775808 1 1\n",
-            "texture coordinate",
+            "v 0 0 0\nf 1//-9223372036854775808 1 1\nvn 0 0 1\n",
+            "normal -9223372036854775808",
         ),
         ("v 0 0 nan\n", "bad.obj:1: found `v 0 0 nan`"),
         ("v 0 0 1e300\n", "bad.obj:1"),

@@ -2,6 +2,7 @@
 
 use super::bad::{triangle, write};
 use restframe::queue::Prepared;
+use restframe::scene::model::Warning;
 use restframe::scene::{Material, Scene};
 use restframe::shot::Mistakes;
 use serde_json::{Value, json};
@@ -141,5 +142,15 @@ fn naming_them_where_there_are_none_is_a_mistake() {
         mistake.help.as_ref().unwrap().contains("\"glow\""),
         "{:?}",
         mistake.help
+    );
+}
+
+#[test]
+fn those_without_a_name_are_called_the_mesh() {
+    let nodes = ["", "Bare"].map(str::to_owned).to_vec();
+    let message = Warning::NoMaterial { nodes }.to_string();
+    assert!(
+        message.starts_with("the mesh, `Bare`: the file gives these surfaces no material"),
+        "{message}"
     );
 }

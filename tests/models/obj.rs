@@ -79,6 +79,22 @@ fn a_backslash_continues_numbers_and_names_and_at_the_end_nothing() {
 }
 
 #[test]
+fn any_number_of_lines_may_be_continued_in_no_time() {
+    let bare = "\\\n".repeat(200_000);
+    let begun = std::time::Instant::now();
+    for text in [
+        format!("{bare}f 1 2 3 4\n"),
+        format!("f 1 2 \\\n{bare}3 4\n"),
+        format!("f 1 2 3 4\n{}\\\n{bare}", "x".repeat(200_000)),
+    ] {
+        let model = read(format!("{CORNERS}{text}"), &[]);
+        assert_eq!((model.triangles(), model.area()), (2, 4.0));
+    }
+    // Looking at all that has come at each line took minutes.
+    assert!(begun.elapsed().as_secs() < 10);
+}
+
+#[test]
 fn a_byte_order_mark_is_skipped_in_models_and_libraries() {
     let obj = format!("\u{FEFF}mtllib a.mtl\nusemtl Red\n\u{FEFF}{CORNERS}f 1 2 3 4\n");
     let model = read(obj, &[("a.mtl", "\u{FEFF}newmtl Red\nKd 0.8 0.1 0.1\n")]);
@@ -311,10 +327,6 @@ fn faces_may_name_normals_and_coordinates_of_a_file_that_has_none() {
     // With some of the kind, the one that is missing was lost.
     for (face, expected) in [
         (
-            "vt 0 0\nf 1/1 2/2 3/3 4/4\n",
-            "texture coordinate 4, but there are only 1",
-        ),
-        (
             "vn 0 0 1\nf 1//1 2//2 3//1\n",
             "normal 2, but there are only 1",
         ),
@@ -329,12 +341,29 @@ fn faces_may_name_normals_and_coordinates_of_a_file_that_has_none() {
 }
 
 #[test]
+fn coordinates_that_are_not_there_are_told_and_cost_nothing() {
+    for (face, index) in [
+        ("f 1/1 2/2 3/3 4/4\n", 4),
+        ("f 1/-2 2/1 3/1 4/1\n", -2),
+        ("f 1/0 2/1 3/1 4/1\n", 0),
+        ("f 1/-9223372036854775808 2/1 3/1 4/1\n", i64::MIN),
+        ("f 1/9223372036854775807 2/1 3/1 4/1\n", i64::MAX),
+    ] {
+        let model = read(format!("{CORNERS}vt 0 0\n{face}"), &[]);
+        assert_eq!((model.triangles(), model.area()), (2, 4.0), "{face:?}");
+        let expected = format!(
+            "line 6: the face asks for texture coordinate {index}, but there are only 1; coordinates are not read"
+        );
+        assert_eq!(told(&model), [expected], "{face:?}");
+    }
+}
+
+#[test]
 fn index_0_is_told_where_indices_begin() {
     for (face, what) in [
         ("f 0 1 2\n", "position"),
         ("f 1 2 0\n", "position"),
         ("vn 0 0 1\nf 1//1 2//0 3//1\n", "normal"),
-        ("vt 0 0\nf 1/1 2/0 3/1\n", "texture coordinate"),
     ] {
         let message = refusal(format!("{CORNERS}{face}"));
         let expected = format!("asks for {what} 0, but indices begin at 1");
@@ -481,5 +510,34 @@ fn what_has_no_name_is_called_the_mesh() {
     assert_eq!(
         told(&read(text, &[])),
         ["object `wall`: 1 triangles of zero area are left out"]
+    );
+}
+
+#[test]
+fn beyond_a_thousand_libraries_a_file_is_refused_with_the_way_out() {
+    let face = format!("{CORNERS}f 1 2 3 4\n");
+    let lines = |count: usize| (0..count).map(|i| format!("mtllib {i}\n"));
+    let words = |count: usize| (0..count).map(|i| format!("{i} "));
+    let model = read(face.clone() + &lines(1000).collect::<String>(), &[]);
+    assert_eq!(model.area(), 4.0);
+    for text in [
+        lines(1001).collect::<String>(),
+        format!("mtllib {}\n", words(1001).collect::<String>()),
+    ] {
+        let message = refusal(face.clone() + &text);
+        assert!(
+            message.contains("more material libraries than the 1000")
+                && message.contains("into one .mtl file"),
+            "{message}"
+        );
+    }
+}
+
+#[test]
+fn names_in_messages_show_their_control_characters() {
+    let message = refusal(format!("mtllib ../../\u{1b}[31m.mtl\n{CORNERS}f 1 2 3\n"));
+    assert!(
+        message.contains("\\u{1b}[31m") && !message.contains('\u{1b}'),
+        "{message}"
     );
 }

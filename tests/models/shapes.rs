@@ -1,7 +1,7 @@
 //! Forms of glTF and OBJ that Blender's files do not show: strips, sparse and interleaved
 //! accessors, instancing, deep trees, odd lines.
 
-use super::bad::{triangle, with_buffer, write};
+use super::bad::{refusal, triangle, with_buffer, write};
 use glam::DVec3;
 use restframe::scene::model::{Model, Warning, load};
 use serde_json::{Value, json};
@@ -110,6 +110,62 @@ fn every_instance_of_gpu_instancing_stands() {
         [Warning::Squashed {
             node: "node `Tri`".into()
         }]
+    );
+}
+
+/// The triangle at each of the places or scales that accessor 2 has.
+fn instanced(attribute: &str, accessor: &Value) -> Value {
+    let mut bytes = floats(&[0., 0., 0., 1., 0., 0., 0., 1., 0.]);
+    bytes.extend([0, 0, 1, 0, 2, 0, 0, 0]);
+    bytes.extend(floats(&[0.0; 300]));
+    let mut gltf = with_buffer(&bytes, triangle());
+    let views = gltf["bufferViews"].as_array_mut().unwrap();
+    views.push(json!({ "buffer": 0, "byteOffset": 44, "byteLength": 1200 }));
+    let accessors = gltf["accessors"].as_array_mut().unwrap();
+    accessors.push(accessor.clone());
+    gltf["nodes"][0]["extensions"] =
+        json!({ "EXT_mesh_gpu_instancing": { "attributes": { attribute: 2 } } });
+    gltf
+}
+
+#[test]
+fn instances_that_cost_the_file_no_bytes_are_refused() {
+    let sparse = json!({ "count": 1, "indices": { "bufferView": 2, "componentType": 5121 },
+        "values": { "bufferView": 2 } });
+    for (sparse, values) in [(Value::Null, 0), (sparse, 1)] {
+        let mut accessor = json!({ "componentType": 5126, "count": 4 << 20, "type": "VEC3" });
+        if sparse.is_object() {
+            accessor["sparse"] = sparse;
+        }
+        for attribute in ["TRANSLATION", "SCALE"] {
+            let message = refusal(|gltf| *gltf = instanced(attribute, &accessor));
+            let expected = format!("4194304 instances of which the file holds only {values}");
+            assert!(message.contains(&expected), "{message}");
+        }
+    }
+}
+
+#[test]
+fn instances_squashed_to_nothing_count_and_are_told_once_a_node() {
+    let accessor = json!({ "bufferView": 2, "componentType": 5126, "count": 100, "type": "VEC3" });
+    let mut gltf = instanced("SCALE", &accessor);
+    gltf["nodes"]
+        .as_array_mut()
+        .unwrap()
+        .push(json!({ "mesh": 0 }));
+    let model = read(&gltf);
+    assert_eq!(model.placements.len(), 1);
+    let node = "node `Tri`".into();
+    assert_eq!(model.warnings, [Warning::Squashed { node }]);
+    let mut more = accessor;
+    more["count"] = json!(9_999_901);
+    gltf["accessors"].as_array_mut().unwrap().push(more);
+    gltf["nodes"][1]["extensions"] =
+        json!({ "EXT_mesh_gpu_instancing": { "attributes": { "SCALE": 3 } } });
+    let message = refusal(|bad| *bad = gltf);
+    assert!(
+        message.contains("10000001 instances of meshes"),
+        "{message}"
     );
 }
 

@@ -58,7 +58,7 @@ pub enum ModelError {
         file: PathBuf,
         /// Line, from 1.
         line: usize,
-        /// "position", "texture coordinate" or "normal".
+        /// "position" or "normal".
         what: &'static str,
         /// As written: from 1, or negative from the latest.
         index: i64,
@@ -72,7 +72,7 @@ pub enum ModelError {
         file: PathBuf,
         /// Line, from 1.
         line: usize,
-        /// "position", "texture coordinate" or "normal".
+        /// "position" or "normal".
         what: &'static str,
     },
     /// The OBJ reader refused the file, and it is not known where.

@@ -85,6 +85,15 @@ pub enum Warning {
         /// Line of the first.
         line: usize,
     },
+    /// A face of an OBJ file that names a texture coordinate that is not there.
+    Coordinate {
+        /// Its line.
+        line: usize,
+        /// As written: from 1, or negative from the latest.
+        index: i64,
+        /// How many there are.
+        count: i64,
+    },
     /// Numbers of a vertex in an OBJ file that are neither position nor color.
     ExtraNumbers {
         /// Line of the first.
@@ -241,6 +250,10 @@ impl fmt::Display for Warning {
                 f,
                 "faces name {what}s, the first in line {line}, but the file has none; they are left out"
             ),
+            Self::Coordinate { line, index, count } => write!(
+                f,
+                "line {line}: the face asks for texture coordinate {index}, but there are only {count}; coordinates are not read"
+            ),
             Self::ExtraNumbers { line } => write!(
                 f,
                 "vertices have numbers after x y z that are neither weight nor color, the first in line {line}; they are not read"
@@ -301,15 +314,16 @@ impl fmt::Display for Warning {
                 "{count} other scenes are left out; only the file's default scene is shown, or the first where none is"
             ),
             Self::NoMaterial { nodes } => {
-                let shown = &nodes[..nodes.len().min(MOST_NAMES)];
+                let shown = nodes.iter().take(MOST_NAMES);
+                let shown: Vec<String> = shown.map(|node| called(node)).collect();
                 let more = match nodes.len() - shown.len() {
                     0 => String::new(),
                     more => format!(" and {more} more"),
                 };
                 write!(
                     f,
-                    "`{}`{more}: the file gives these surfaces no material; they are drawn white; in the shot, materials = {{ \"\" = \"NAME\" }} gives them one",
-                    shown.join("`, `")
+                    "{}{more}: the file gives these surfaces no material; they are drawn white; in the shot, materials = {{ \"\" = \"NAME\" }} gives them one",
+                    shown.join(", ")
                 )
             }
             Self::NotUtf8 { line } => write!(
@@ -331,5 +345,13 @@ impl fmt::Display for Warning {
                 )
             }
         }
+    }
+}
+
+/// A node or object among others.
+fn called(name: &str) -> String {
+    match name {
+        "" => "the mesh".to_owned(),
+        _ => format!("`{name}`"),
     }
 }

@@ -6,7 +6,8 @@
 
 use super::super::names::nearest;
 use super::super::obj_lines::before_comment;
-use super::{FileError, ModelFiles, Opened, is_absolute};
+use super::{FileError, MAX_LIBRARIES, ModelFile, ModelFiles, is_absolute};
+use indexmap::IndexSet;
 use std::path::{Component, Path};
 
 /// A material library.
@@ -17,36 +18,46 @@ pub struct Library {
     /// Of an absolute path, the name that was tried beside the model.
     pub beside: Option<String>,
     /// Its name from the model's folder, and the file; `None` where it is not there.
-    pub found: Option<(String, Opened)>,
+    pub found: Option<(String, ModelFile)>,
     /// Of one that is not there, the file that was perhaps meant.
     pub near: Option<String>,
 }
 
 impl ModelFiles {
-    /// Opens the material libraries that an `mtllib` line names: the file that all of it names or,
+    /// Finds the material libraries that an `mtllib` line names: the file that all of it names or,
     /// where there is none, those of its words.
     ///
     /// # Errors
-    /// As [`ModelFiles::part`], but for missing files and absolute names.
+    /// When the model may not read one, or one is too large, or there are too many.
     pub fn libraries(&mut self, line: &str) -> Result<Vec<Library>, FileError> {
         let named = before_comment("mtllib", line);
         if named.is_empty() {
             return Ok(Vec::new());
         }
-        for whole in [line, named] {
+        self.count(1)?;
+        let mut missing = None;
+        for whole in IndexSet::from([line, named]) {
             if !is_absolute(unquoted(whole)) {
                 let library = self.library(whole)?;
                 if library.found.is_some() {
                     return Ok(vec![library]);
                 }
+                missing = (whole == named).then_some(library);
             }
         }
+        let words = words(named);
+        self.count(words.len().saturating_sub(1))?;
         let mut libraries = Vec::new();
-        for word in words(named) {
-            libraries.push(self.library(word)?);
+        for word in words {
+            if missing.is_none() || word != unquoted(named) {
+                libraries.push(self.library(word)?);
+            }
         }
         if libraries.iter().all(|library| library.found.is_none()) {
-            libraries = vec![self.library(named)?];
+            libraries = vec![match missing {
+                Some(library) => library,
+                None => self.library(named)?,
+            }];
         } else {
             // Another word that is not there may be a remark.
             libraries.retain(|library| {
@@ -60,6 +71,16 @@ impl ModelFiles {
             }
         }
         Ok(libraries)
+    }
+
+    /// Counts names against the most that are looked for.
+    fn count(&mut self, names: usize) -> Result<(), FileError> {
+        let left = self.libraries_left.checked_sub(names);
+        self.libraries_left = left.ok_or_else(|| FileError::Libraries {
+            file: self.model.clone(),
+            limit: MAX_LIBRARIES,
+        })?;
+        Ok(())
     }
 
     fn library(&mut self, asked: &str) -> Result<Library, FileError> {
@@ -89,10 +110,10 @@ impl ModelFiles {
     }
 
     /// None where there is no file of that name.
-    fn if_there(&mut self, name: &str) -> Result<Option<(String, Opened)>, FileError> {
+    fn if_there(&mut self, name: &str) -> Result<Option<(String, ModelFile)>, FileError> {
         match self.part(name) {
-            Err(FileError::MissingPart { .. } | FileError::NotAFile { .. }) => Ok(None),
-            opened => opened.map(|opened| Some((name.to_owned(), opened))),
+            Err(FileError::NotAFile { .. }) => Ok(None),
+            part => Ok(part?.map(|part| (name.to_owned(), part))),
         }
     }
 

@@ -78,6 +78,21 @@ impl Source<'_> {
         self.elements(accessor, layout, &at, unsigned)
     }
 
+    /// How many elements an accessor has, most of which the file holds: zeros cost it no bytes, and
+    /// would be as many instances in one place.
+    pub(super) fn written(&self, index: Index<Accessor>, from: &str) -> Result<u64, ModelError> {
+        let (accessor, _, at) = self.accessor(index, from)?;
+        let count = accessor.count.0;
+        let replaced = accessor.sparse.as_ref().map_or(0, |s| s.count.0);
+        if accessor.buffer_view.is_none() && replaced < count.div_ceil(2) {
+            let problem = format!(
+                "has {count} instances of which the file holds only {replaced}, expected a buffer view: export the instances again, or as nodes"
+            );
+            return Err(self.invalid(&at, problem));
+        }
+        Ok(count)
+    }
+
     fn accessor(
         &self,
         index: Index<Accessor>,

@@ -69,7 +69,8 @@ fn from_uri(uri: &str, files: &mut ModelFiles, at: &str) -> Result<Vec<u8>, Mode
     const SCHEME: &str = "data:";
     let scheme = uri.get(..SCHEME.len());
     if !scheme.is_some_and(|scheme| scheme.eq_ignore_ascii_case(SCHEME)) {
-        return Ok(files.part_by_uri(uri)?.bytes()?);
+        let part = files.part_by_uri(uri)?;
+        return Ok(part.ok_or_else(|| files.missing(uri))?.bytes()?);
     }
     let broken = |problem: &str| {
         let remedy = "the file is cut short or broken; export it again, or as one .glb";

@@ -15,7 +15,7 @@ use serde_json::Value;
 use std::collections::HashMap;
 
 /// Instances of meshes in one file at most.
-const MAX_INSTANCES: usize = 10_000_000;
+const MAX_INSTANCES: u64 = 10_000_000;
 
 /// Least departure from 0 0 0 1 by which the last row of a matrix is more than a rounding of it.
 const NOT_AFFINE: f64 = 1e-5;
@@ -27,6 +27,8 @@ struct Made {
     /// Ours by the index of the whole one and the bits of the direction in which it is flattened;
     /// `None` where nothing is left.
     flat: HashMap<(usize, [u64; 3]), Option<usize>>,
+    /// Instances by EXT_mesh_gpu_instancing, those that are squashed to nothing included.
+    instances: u64,
 }
 
 /// Puts every instance and lamp of the scene into the model.
@@ -39,6 +41,7 @@ pub(super) fn place(source: &Source<'_>, model: &mut Model) -> Result<(), ModelE
     let mut made = Made {
         whole: vec![None; source.root.meshes.len()],
         flat: HashMap::new(),
+        instances: 0,
     };
     let mut is_visited = vec![false; source.root.nodes.len()];
     while let Some((index, parent)) = stack.pop() {
@@ -97,8 +100,12 @@ impl Source<'_> {
                 model.warnings.push(Warning::Skin { node: from.clone() });
             }
             let instancing = &extensions["EXT_mesh_gpu_instancing"]["attributes"];
-            for instance in self.instances(instancing, &from)? {
-                self.stand(&parts, pose.then(instance), &name, made, model)?;
+            let mut are_seen = true;
+            for instance in self.instances(instancing, &from, made)? {
+                are_seen &= self.stand(&parts, pose.then(instance), &name, made, model)?;
+            }
+            if !are_seen {
+                model.warnings.push(Warning::Squashed { node: from });
             }
         }
         let has_children = node.children.as_ref().is_some_and(|c| !c.is_empty());
@@ -111,6 +118,7 @@ impl Source<'_> {
         Ok(())
     }
 
+    /// Puts an instance there, and tells whether anything of it is seen.
     fn stand(
         &self,
         parts: &[usize],
@@ -118,7 +126,7 @@ impl Source<'_> {
         node: &str,
         made: &mut Made,
         model: &mut Model,
-    ) -> Result<(), ModelError> {
+    ) -> Result<bool, ModelError> {
         let extent = pose.extent();
         let mut is_seen = parts.is_empty();
         for &mesh in parts {
@@ -141,24 +149,29 @@ impl Source<'_> {
                 .placements
                 .extend(placed.map(|(mesh, world)| Placement { mesh, world, node }));
         }
-        if !is_seen {
-            model.warnings.push(Warning::Squashed {
-                node: format!("node `{node}`"),
-            });
+        self.check_instances(model.placements.len() as u64)?;
+        Ok(is_seen)
+    }
+
+    fn check_instances(&self, count: u64) -> Result<(), ModelError> {
+        if count <= MAX_INSTANCES {
+            return Ok(());
         }
-        if model.placements.len() > MAX_INSTANCES {
-            return Err(ModelError::TooMany {
-                file: self.file.clone(),
-                what: "instances of meshes",
-                count: model.placements.len() as u64,
-                limit: MAX_INSTANCES as u64,
-            });
-        }
-        Ok(())
+        Err(ModelError::TooMany {
+            file: self.file.clone(),
+            what: "instances of meshes",
+            count,
+            limit: MAX_INSTANCES,
+        })
     }
 
     /// The node's own transforms by EXT_mesh_gpu_instancing; one that does nothing without it.
-    fn instances(&self, attributes: &Value, from: &str) -> Result<Vec<Pose>, ModelError> {
+    fn instances(
+        &self,
+        attributes: &Value,
+        from: &str,
+        made: &mut Made,
+    ) -> Result<Vec<Pose>, ModelError> {
         const FLOAT: [ComponentType; 1] = [ComponentType::F32];
         const TURN: [ComponentType; 3] =
             [ComponentType::F32, ComponentType::I8, ComponentType::I16];
@@ -171,13 +184,19 @@ impl Source<'_> {
                 u32::try_from(index).unwrap_or(u32::MAX),
             ))
         };
-        let shift = at("TRANSLATION")
+        let all = ["TRANSLATION", "ROTATION", "SCALE"].map(at);
+        let counts = all.iter().flatten().map(|&i| self.written(i, from));
+        let most = counts.collect::<Result<Vec<u64>, _>>()?.into_iter().max();
+        made.instances = made.instances.saturating_add(most.unwrap_or_default());
+        self.check_instances(made.instances)?;
+        let [shift, turn, scale] = all;
+        let shift = shift
             .map(|i| self.vectors::<3>(i, &FLOAT, from))
             .transpose()?;
-        let turn = at("ROTATION")
+        let turn = turn
             .map(|i| self.vectors::<4>(i, &TURN, from))
             .transpose()?;
-        let scale = at("SCALE")
+        let scale = scale
             .map(|i| self.vectors::<3>(i, &FLOAT, from))
             .transpose()?;
         let counts = [

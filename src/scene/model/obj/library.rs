@@ -7,7 +7,7 @@
 use super::super::{LUMENS_PER_WATT, ModelError, ModelMaterial, Warning};
 use super::number::numbers;
 use crate::shot::{
-    FileError, ModelFiles, Opened, before_comment, each_line, is_utf16, keyword_and_rest,
+    FileError, ModelFile, ModelFiles, before_comment, each_line, is_utf16, keyword_and_rest,
 };
 use indexmap::{IndexMap, IndexSet};
 use std::collections::HashMap;
@@ -82,7 +82,7 @@ fn open(
     line: &str,
     files: &mut ModelFiles,
     warnings: &mut Vec<Warning>,
-) -> Result<Vec<(String, Opened)>, ModelError> {
+) -> Result<Vec<(String, ModelFile)>, ModelError> {
     let mut opened = Vec::new();
     for library in files.libraries(line)? {
         if let Some(beside) = &library.beside {
@@ -105,7 +105,7 @@ fn open(
 /// The materials of a library by their names.
 fn materials(
     name: &str,
-    opened: Opened,
+    opened: ModelFile,
     warnings: &mut Vec<Warning>,
 ) -> Result<IndexMap<String, Defined>, ModelError> {
     let bytes = opened.bytes()?;

@@ -246,8 +246,8 @@ impl Scan {
         Ok(indices)
     }
 
-    /// Refuses indices of what is not there, unless nothing of that kind is and the shape does not
-    /// need it: a mesh without normals is flat.
+    /// Refuses indices of what is not there, unless the shape does not need it: coordinates are not
+    /// read, and a mesh without normals is flat.
     fn check_asked(&mut self, files: &ModelFiles) -> Result<(), ModelError> {
         for (kind, asked) in self.asked.into_iter().enumerate() {
             let (what, count) = (KINDS[kind], self.counts[kind]);
@@ -263,6 +263,10 @@ impl Scan {
             let Some((line, index, count)) = asked.too_low.or(too_great) else {
                 continue;
             };
+            if kind == 1 {
+                self.warn(Warning::Coordinate { line, index, count });
+                continue;
+            }
             let file = files.model.clone();
             return Err(match index {
                 0 => ModelError::ObjIndexZero { file, line, what },
