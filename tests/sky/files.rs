@@ -298,6 +298,26 @@ fn colors_beyond_rec_709_keep_their_luminance_and_are_counted() {
 }
 
 #[test]
+fn an_infinite_texel_is_the_greatest_finite_in_any_color_space() {
+    for Space { name, xy, .. } in SPACES {
+        let image = |sun: f32, hole: f32| {
+            let mut texels = colors();
+            texels[3][1] = 60000.0;
+            texels[9] = [sun; 3];
+            texels[20][2] = hole;
+            let mut file = Exr::rgb(&texels);
+            file.chromaticities = chromaticities(xy);
+            decoded(&file.bytes())
+        };
+        let [found, expected] = [image(f32::INFINITY, f32::NAN), image(60000.0, 0.0)];
+        assert_eq!(seen(&found), seen(&expected), "{name}");
+        assert!(seen(&found)[9].iter().all(|v| *v > 1e4), "{name}");
+        assert_eq!(found.warnings()[0], SkyWarning::Clamped { count: 4 });
+        assert_eq!(found.warnings()[1..], *expected.warnings(), "{name}");
+    }
+}
+
+#[test]
 fn absurd_chromaticities_are_told_and_taken_for_rec_709() {
     let plain = seen(&decoded(&Exr::rgb(&colors()).bytes()));
     for xy in [
@@ -447,6 +467,41 @@ fn tiles_are_put_together_and_what_the_data_window_leaves_out_is_black() {
     assert!(apart(&seen(&image), &expected) < ROUNDING);
 }
 
+/// An attribute's number, behind its name and type, is changed in a file.
+fn patched(mut bytes: Vec<u8>, attribute: &[u8], at: usize, [from, to]: [u32; 2]) -> Vec<u8> {
+    let found = bytes.windows(attribute.len()).position(|w| w == attribute);
+    let place = found.unwrap() + attribute.len() + at;
+    assert_eq!(bytes[place..place + 4], from.to_le_bytes());
+    bytes[place..place + 4].copy_from_slice(&to.to_le_bytes());
+    bytes
+}
+
+#[test]
+fn a_data_window_or_tiles_too_large_to_unpack_are_refused_before() {
+    let file = |blocks: Blocks| {
+        let mut file = Exr::rgb(&colors());
+        file.encoding = Encoding {
+            blocks,
+            ..Encoding::SMALL_LOSSLESS
+        };
+        file.bytes()
+    };
+    let told = |bytes: &[u8]| SkyImage::decode(bytes).unwrap_err().to_string();
+    // The display window is 8 x 4 still.
+    let window = b"dataWindow\0box2i\0";
+    let wide = patched(file(Blocks::ScanLines), window, 12, [7, (1 << 29) - 1]);
+    assert_eq!(
+        told(&wide),
+        "the image's data window is of 536870912 x 4 pixels: expected at most 32768 x 16384 and 134217728 in all"
+    );
+    let tiles = b"tiles\0tiledesc\0";
+    let mut vast = file(Blocks::Tiles(Vec2(8, 4)));
+    for (at, side) in [(4, 8), (8, 4)] {
+        vast = patched(vast, tiles, at, [side, 1 << 29]);
+    }
+    assert!(told(&vast).contains("bytes of memory"), "{}", told(&vast));
+}
+
 #[test]
 fn a_grey_exr_is_grey_and_one_of_xyz_is_xyz() {
     let values: Vec<f32> = (0..32).map(|i| i as f32 / 8.0).collect();
@@ -475,6 +530,35 @@ fn a_radiance_file_may_begin_with_any_program() {
         let crlf = [crlf.as_bytes(), &bytes[bytes.len() - 128..]].concat();
         assert_eq!(decoded(&crlf), decoded(&bytes), "{signature}");
     }
+}
+
+#[test]
+fn runs_of_radiance_files_of_either_kind_are_read() {
+    let header = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n";
+    let [a, b] = [[128, 64, 32, 129], [3, 200, 1, 120]];
+    let line = |first: usize, width: usize| [vec![a; first], vec![b; width - first]].concat();
+    let by_component = |p: [u8; 4], q: [u8; 4]| -> Vec<u8> {
+        // Three repeats, then five bytes.
+        let component = |c: usize| [131, p[c], 5, q[c], q[c], q[c], q[c], q[c]];
+        let runs = (0..4).flat_map(component);
+        [2, 2, 0, 8].into_iter().chain(runs).collect()
+    };
+    let long: Vec<[u8; 4]> = vec![a, [1, 1, 1, 2], [1, 1, 1, 1], b, [1, 1, 1, 4]];
+    let idle = [&[a][..], &[[1, 1, 1, 0]; 9], &[b, [1, 1, 1, 6]]].concat();
+    for (bytes, expected) in [
+        (by_component(a, b), line(3, 8)),
+        (long.concat(), line(259, 264)),
+        (idle.concat(), line(1, 8)),
+    ] {
+        let resolution = format!("-Y 1 +X {}", expected.len());
+        let mut runs = hdr(header, &resolution, &[]);
+        runs.extend(bytes);
+        let flat = decoded(&hdr(header, &resolution, &expected));
+        assert_eq!(decoded(&runs), flat, "{resolution}");
+    }
+    // Lines of fewer pixels than 8 have no runs by component.
+    let narrow = hdr(header, "-Y 1 +X 1", &[[2, 2, 2, 129]]);
+    assert_eq!(seen(&decoded(&narrow)), [[2.0 / 128.0; 3]]);
 }
 
 #[test]

@@ -3,7 +3,7 @@
 //! HDR and EXR hold linear light, of Rec. 709 where they do not say of what else. PNG is taken as
 //! sRGB, of 8 or 16 bits, grey or palette too. Alpha is left out.
 
-use super::image::{MOST_PIXELS, MOST_SIDES, SkyImage};
+use super::image::{MOST_PIXELS, MOST_SIDES, SkyImage, make_finite};
 use super::primaries::Primaries;
 use super::{SkyWarning, openexr, radiance};
 use crate::spectrum::color_space::decode;
@@ -66,6 +66,17 @@ pub enum SkyImageError {
         /// Rows.
         height: u64,
     },
+    /// An OpenEXR file that has too many pixels beyond its display window.
+    #[error(
+        "the image's data window is of {width} x {height} pixels: expected at most {} x {} and {MOST_PIXELS} in all",
+        MOST_SIDES[0], MOST_SIDES[1]
+    )]
+    DataWindow {
+        /// Columns.
+        width: u64,
+        /// Rows.
+        height: u64,
+    },
     /// Memory is short.
     #[error("the image needs {0} bytes of memory, more than there are: make it smaller")]
     Memory(u64),
@@ -85,6 +96,7 @@ impl SkyImageError {
             Self::LongFile | Self::Size { .. } | Self::Memory(_) => {
                 "save the panorama with fewer pixels"
             }
+            Self::DataWindow { .. } => "save it cropped to its display window",
             Self::Broken(_) => "copy the file again, or save it as a flat OpenEXR of R, G and B",
             Self::Header { .. } => "save the file again, or mend that line in it",
             Self::NoPicture(_) | Self::Layers(_) => {
@@ -107,11 +119,16 @@ pub(super) struct Pixels {
 
 impl Pixels {
     fn into_sky(mut self) -> SkyImage {
-        let convert = |primaries: Primaries| primaries.convert(&mut self.texels);
+        // Conversion mixes the components of a texel: one that is infinite would spoil the others.
+        let mut strange = 0;
+        let convert = |primaries: Primaries| {
+            strange = make_finite(&mut self.texels);
+            primaries.convert(&mut self.texels)
+        };
         let converted = self.primaries.and_then(convert);
         let size = [self.width, self.texels.len() / self.width];
         let stretched = (size[0] != 2 * size[1]).then_some(SkyWarning::Shape { size });
-        SkyImage::new(self.width, self.texels)
+        SkyImage::with_strange(self.width, self.texels, strange)
             .with_warnings(self.warnings.into_iter().chain(converted).chain(stretched))
     }
 }
@@ -153,7 +170,11 @@ pub(super) fn check_size([width, height]: [u64; 2], bytes: u64) -> Result<(), Sk
     if !(sides && width * height <= MOST_PIXELS) {
         return Err(SkyImageError::Size { width, height });
     }
-    let bytes = width * height * bytes;
+    check_memory(width * height * bytes)
+}
+
+/// That there is memory for so many bytes.
+pub(super) fn check_memory(bytes: u64) -> Result<(), SkyImageError> {
     Vec::<u8>::new()
         .try_reserve_exact(bytes as usize)
         .map_err(|_| SkyImageError::Memory(bytes))

@@ -33,9 +33,14 @@ impl SkyImage {
     /// An image of `width` ≥ 1 columns from texels by rows from the top, at least one row. What is
     /// negative or no number becomes 0, what is infinite the greatest finite component there is,
     /// with a warning.
-    pub fn new(width: usize, mut texels: Vec<[f32; 3]>) -> Self {
+    pub fn new(width: usize, texels: Vec<[f32; 3]>) -> Self {
+        Self::with_strange(width, texels, 0)
+    }
+
+    /// The same, where so many components have been brought into range already.
+    pub(super) fn with_strange(width: usize, mut texels: Vec<[f32; 3]>, strange: usize) -> Self {
         let height = texels.len() / width;
-        let count = clamp(&mut texels);
+        let count = strange + clamp(&mut texels);
         let clamped = (count > 0).then_some(SkyWarning::Clamped { count });
         let mean = |row: usize| {
             let row = &texels[row * width..(row + 1) * width];
@@ -111,13 +116,29 @@ fn mix(a: [f64; 3], b: [f64; 3], part: f64) -> [f64; 3] {
     [0, 1, 2].map(|c| a[c] * (1.0 - part) + b[c] * part)
 }
 
+/// The greatest finite component, at least 0.
+fn greatest(texels: &[[f32; 3]]) -> f32 {
+    let finite = texels.iter().flatten().filter(|value| value.is_finite());
+    finite.copied().fold(0.0, f32::max)
+}
+
+/// Makes what is no number 0, what is infinite the greatest finite component with its sign; returns
+/// how many there were, without those that are negative still.
+pub(super) fn make_finite(texels: &mut [[f32; 3]]) -> usize {
+    let greatest = greatest(texels);
+    let mut count = 0;
+    for value in texels.iter_mut().flatten().filter(|v| !v.is_finite()) {
+        let made = if value.is_nan() { 0.0 } else { greatest };
+        count += usize::from(*value != f32::NEG_INFINITY);
+        *value = made.copysign(*value);
+    }
+    count
+}
+
 /// Brings components into range; returns how many were not.
 fn clamp(texels: &mut [[f32; 3]]) -> usize {
     let components = || texels.iter().flatten();
-    let greatest = components()
-        .copied()
-        .filter(|value| value.is_finite())
-        .fold(0.0, f32::max);
+    let greatest = greatest(texels);
     let clamped = |value: f32| match value {
         _ if value >= 0.0 => value.min(greatest),
         _ => 0.0, // NaN too

@@ -6,7 +6,7 @@
 //! any other. Pixels of the display window that the data window leaves out are black.
 //! Source: Technical Introduction to OpenEXR and OpenEXR File Layout, openexr.com.
 
-use super::decode::{Pixels, SkyImageError, check_size};
+use super::decode::{Pixels, SkyImageError, check_memory, check_size};
 use super::{SkyWarning, primaries::Primaries};
 use ::exr::block::reader::ChunksReader;
 use ::exr::block::{self, UncompressedBlock};
@@ -71,6 +71,7 @@ pub(super) fn decode(bytes: &[u8]) -> Result<Pixels, SkyImageError> {
     let Vec2(width, height) = shared.display_window.size;
     // The picture and, until it is complete, nothing else.
     check_size([width as u64, height as u64], 12)?;
+    check_blocks(header)?;
     let offset = header.own_attributes.layer_position - shared.display_window.position;
     let mut texels = vec![[0.0; 3]; width * height];
     reader
@@ -90,6 +91,19 @@ pub(super) fn decode(bytes: &[u8]) -> Result<Pixels, SkyImageError> {
         primaries,
         warnings,
     })
+}
+
+/// That what the file has beyond its display window, too, can be unpacked.
+fn check_blocks(header: &Header) -> Result<(), SkyImageError> {
+    let Vec2(width, height) = header.layer_size;
+    check_size([width as u64, height as u64], 0).map_err(|error| match error {
+        SkyImageError::Size { width, height } => SkyImageError::DataWindow { width, height },
+        error => error,
+    })?;
+    let Vec2(columns, rows) = header.max_block_pixel_size();
+    let bytes = columns.checked_mul(rows);
+    let bytes = bytes.and_then(|pixels| pixels.checked_mul(header.channels.bytes_per_pixel));
+    check_memory(bytes.map_or(u64::MAX, |bytes| bytes as u64))
 }
 
 fn broken(error: Error) -> SkyImageError {

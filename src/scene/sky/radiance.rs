@@ -8,12 +8,12 @@
 
 use super::decode::{Pixels, SkyImageError, check_size};
 use super::primaries::Primaries;
-use image::ImageDecoder;
-use image::codecs::hdr::HdrDecoder;
-use std::io::{Cursor, Read};
 
 /// Most bytes of a line of the header.
 const LONGEST_LINE: usize = 1 << 16;
+
+/// Pixels of scan lines that may have runs for each component.
+const BY_COMPONENT: std::ops::Range<usize> = 8..32768;
 
 /// What the lines of a header say.
 struct Header {
@@ -38,25 +38,20 @@ struct Order {
 pub(super) fn decode(bytes: &[u8]) -> Result<Pixels, SkyImageError> {
     let header = header(bytes)?;
     let Order { size, by_rows, .. } = header.order;
-    check_size(size.map(|side| side as u64), 24)?;
-    let [length, lines] = if by_rows { size } else { [size[1], size[0]] };
-    // The decoder reads one orientation and one signature; scan lines are the same in all.
-    let usual = format!("#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y {lines} +X {length}\n");
-    let file = Cursor::new(usual.into_bytes()).chain(&bytes[header.end..]);
-    let decoder = HdrDecoder::new(file).map_err(SkyImageError::broken)?;
-    // Not touched before the decoder writes to it, so that a short file with a long header is
+    check_size(size.map(|side| side as u64), 16)?;
+    let length = size[usize::from(!by_rows)];
+    // Not touched before pixels are written to it, so that a short file with a long header is
     // refused at once.
-    let mut values = vec![0; decoder.total_bytes() as usize];
-    decoder
-        .read_image(&mut values)
-        .map_err(SkyImageError::broken)?;
-    let (found, _) = values.as_chunks::<12>();
+    let mut pixels = vec![[0; 4]; size[0] * size[1]];
+    let mut rest = &bytes[header.end..];
+    for line in pixels.chunks_mut(length) {
+        scan_line(&mut rest, line)?;
+    }
     let texel = |at: usize| {
-        let (parts, _) = found[at].as_chunks::<4>();
-        let parts = [parts[0], parts[1], parts[2]].map(f32::from_ne_bytes);
+        let [parts @ .., exponent] = pixels[at];
+        let unit = unit(exponent);
         // Without exposure the very values of the file.
-        let divided = |c: usize| (f64::from(parts[c]) / header.divisor[c]) as f32;
-        [0, 1, 2].map(divided)
+        [0, 1, 2].map(|c: usize| (f64::from(parts[c]) * unit / header.divisor[c]) as f32)
     };
     let [width, height] = size;
     let places = (0..height).flat_map(|row| (0..width).map(move |column| [column, row]));
@@ -68,6 +63,95 @@ pub(super) fn decode(bytes: &[u8]) -> Result<Pixels, SkyImageError> {
         primaries: header.primaries,
         warnings: Vec::new(),
     })
+}
+
+/// What a part of a pixel with this exponent is multiplied by: 2 to its power over 128, over 256.
+fn unit(exponent: u8) -> f64 {
+    match exponent {
+        0 => 0.0,
+        exponent => f64::from_bits((1023 - 128 - 8 + u64::from(exponent)) << 52),
+    }
+}
+
+/// Reads a scan line: each component by itself, in runs, or pixel after pixel.
+fn scan_line(rest: &mut &[u8], line: &mut [[u8; 4]]) -> Result<(), SkyImageError> {
+    match **rest {
+        [2, 2, 0..128, _, ..] if BY_COMPONENT.contains(&line.len()) => {
+            take::<4>(rest)?;
+            (0..4).try_for_each(|component| by_component(rest, line, component))
+        }
+        _ => by_pixel(rest, line),
+    }
+}
+
+/// Reads a component: a count above 128 is one of repeats of the byte after it, another of bytes.
+fn by_component(
+    rest: &mut &[u8],
+    line: &mut [[u8; 4]],
+    component: usize,
+) -> Result<(), SkyImageError> {
+    let mut at = 0;
+    while at < line.len() {
+        let [count] = take(rest)?;
+        let is_run = count > 128;
+        let pixels = run(
+            line,
+            &mut at,
+            usize::from(if is_run { count - 128 } else { count }),
+        )?;
+        if is_run {
+            let [value] = take(rest)?;
+            pixels.iter_mut().for_each(|pixel| pixel[component] = value);
+        } else {
+            for pixel in pixels {
+                [pixel[component]] = take(rest)?;
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Reads pixels; (1, 1, 1, n) are n repeats of the one before, each such one that follows another
+/// counts 256 times as much.
+fn by_pixel(rest: &mut &[u8], line: &mut [[u8; 4]]) -> Result<(), SkyImageError> {
+    let mut at = 0;
+    let mut shift = 0;
+    while at < line.len() {
+        let mut pixel = take(rest)?;
+        let mut count = 1;
+        if let [1, 1, 1, repeats] = pixel {
+            let before = at.checked_sub(1).map(|before| line[before]);
+            pixel = before.ok_or_else(|| SkyImageError::broken("a line begins with a repeat"))?;
+            count = usize::from(repeats) << shift;
+            // 2¹⁶ are more than a line has.
+            shift = 16.min(shift + 8);
+        } else {
+            shift = 0;
+        }
+        run(line, &mut at, count)?.fill(pixel);
+    }
+    Ok(())
+}
+
+/// The next pixels of a line.
+fn run<'a>(
+    line: &'a mut [[u8; 4]],
+    at: &mut usize,
+    count: usize,
+) -> Result<&'a mut [[u8; 4]], SkyImageError> {
+    let from = *at;
+    *at += count;
+    let pixels = line.get_mut(from..*at);
+    pixels.ok_or_else(|| SkyImageError::broken("a run goes beyond its line"))
+}
+
+/// The next bytes.
+fn take<const N: usize>(rest: &mut &[u8]) -> Result<[u8; N], SkyImageError> {
+    let (taken, left) = rest
+        .split_first_chunk()
+        .ok_or_else(|| SkyImageError::broken("its pixels have no end"))?;
+    *rest = left;
+    Ok(*taken)
 }
 
 impl Order {

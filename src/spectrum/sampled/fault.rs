@@ -54,16 +54,10 @@ impl fmt::Display for TableWarning {
                 f,
                 "{count} of its values are below 0, the least {least}: they are taken for noise, as 0"
             ),
-            Self::Converted { unit } => {
-                write!(f, "its first column is in {unit}, and is converted to nm")?;
-                if unit.is_reciprocal() {
-                    write!(
-                        f,
-                        "; its values are left as they are, which is right for reflectances and the like: turn a density per {unit} into one per nm first"
-                    )?;
-                }
-                Ok(())
-            }
+            Self::Converted { unit } => write!(
+                f,
+                "its first column is in {unit}, and is converted to nm; its values are left as they are, which is right for reflectances and the like: turn a density per {unit} into one per nm first"
+            ),
             Self::Values { name } => write!(
                 f,
                 "its header calls the values `{name}`, and they are taken as they are, as parts of 1 or per nm: convert them, or let `scale` do it"

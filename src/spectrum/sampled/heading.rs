@@ -24,8 +24,15 @@ const NO_UNITS: [&str; 8] = [
     "measured",
 ];
 
-/// How columns of uncertainties are called.
-const DEVIATIONS: [&str; 8] = ["sigma", "σ", "std", "sd", "err", "unc", "±", "dev"];
+/// Words in the names of columns of uncertainties, and how such words begin.
+const DEVIATIONS: [&str; 4] = ["sd", "err", "unc", "dev"];
+const DEVIATIONS_BEGIN: [&str; 6] = ["sigma", "σ", "std", "uncert", "deviat", "error"];
+
+/// Longest name that words are still joined to, bytes.
+const LONGEST_NAME: usize = 200;
+
+/// What comments begin with that is no unit then: list items, illuminants, instruments.
+const NO_UNITS_OF_COMMENTS: [&str; 3] = ["a", "m", "meter"];
 
 /// The columns of a table.
 #[derive(Debug, Default)]
@@ -74,7 +81,7 @@ impl Heading {
     /// Whether all columns after the second are named as uncertainties.
     pub(super) fn are_deviations(&self, columns: usize) -> bool {
         let names = self.names.get(2..columns);
-        names.is_some_and(|names| names.iter().all(|name| names_any(name, &DEVIATIONS)))
+        names.is_some_and(|names| names.iter().all(|name| is_deviation(name)))
     }
 }
 
@@ -96,11 +103,9 @@ fn lines(table: &Table<'_>) -> Vec<Names> {
                 .get(1)
                 .is_some_and(|name| table.number(name).is_some());
             // Comments say much else.
-            let alone = if is_comment {
-                !first.contains(' ')
-            } else {
-                true
-            };
+            let bare = first.trim_end_matches(|c: char| !c.is_alphanumeric());
+            let is_word = NO_UNITS_OF_COMMENTS.contains(&bare.to_lowercase().as_str());
+            let alone = !is_comment || !first.contains(' ') && !is_word;
             let names_column = names_any(first, &ABSCISSAE) || names.len() > 1 && alone;
             (names_column && !is_value).then_some(Names {
                 line: line.line,
@@ -118,21 +123,30 @@ fn lines(table: &Table<'_>) -> Vec<Names> {
 /// Joins words that spaces part to names: a unit in brackets to what it is the unit of.
 fn merged(words: &[&str]) -> Vec<String> {
     let mut names: Vec<String> = Vec::new();
+    // Brackets that are open in the last name.
+    let mut depth = 0;
     for word in words {
-        let is_part = |name: &String| {
-            let open = name.matches(['(', '[']).count() > name.matches([')', ']']).count();
+        let belongs = word.starts_with(['(', '[', '/']) || *word == "in";
+        let is_unit = |name: &str| {
+            let is = *word != "A" && Unit::of(word).is_some() && !names_any(word, &ABSCISSAE);
+            is && Unit::of(name).is_none()
+        };
+        let is_part = |name: &str| {
             let after = name.ends_with(" in") || name.ends_with('/');
-            let is_unit = *word != "A" && Unit::of(word).is_some() && !names_any(word, &ABSCISSAE);
-            let unit = is_unit && Unit::of(name).is_none();
-            open || after || unit || word.starts_with(['(', '[', '/']) || *word == "in"
+            name.len() < LONGEST_NAME && (belongs || after || depth > 0 || is_unit(name))
         };
         match names.last_mut() {
             Some(name) if is_part(name) => {
                 name.push(' ');
                 name.push_str(word);
             }
-            _ => names.push((*word).to_owned()),
+            _ => {
+                names.push((*word).to_owned());
+                depth = 0;
+            }
         }
+        let count = |signs: [char; 2]| word.matches(signs).count() as i64;
+        depth += count(['(', '[']) - count([')', ']']);
     }
     names
 }
@@ -174,7 +188,89 @@ fn bracketed(name: &str) -> Option<&str> {
     (letters && !known).then_some(inside)
 }
 
+/// Whether a column is named as one of uncertainties.
+fn is_deviation(name: &str) -> bool {
+    let lower = name.to_lowercase();
+    let mut words = lower.split(|c: char| !c.is_alphabetic());
+    let is = |word: &str| {
+        DEVIATIONS.contains(&word) || DEVIATIONS_BEGIN.iter().any(|begin| word.starts_with(begin))
+    };
+    lower.contains('±') || words.any(is)
+}
+
 fn names_any(name: &str, words: &[&str]) -> bool {
     let lower = name.to_lowercase();
     words.iter().any(|word| lower.contains(word))
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::spectrum::Beyond;
+    use crate::spectrum::sampled::{Measured, Sampled, TableWarning};
+
+    fn read(text: &str) -> Measured {
+        Measured::from_csv(text).unwrap_or_else(|e| panic!("{text:?}: {e}"))
+    }
+
+    #[test]
+    fn columns_of_uncertainties_are_known_by_whole_words() {
+        for name in [
+            "std. dev.",
+            "SD",
+            "R_err",
+            "±",
+            "stddev",
+            "2σ",
+            "Uncertainty (%)",
+            "sigmaR",
+            "errors",
+        ] {
+            let read = read(&format!("nm,R,{name}\n400,1,0\n"));
+            assert_eq!(read.warnings([360.0, 830.0]), [], "{name}");
+        }
+        for name in ["uncoated", "device", "function", "USD", "inverse", "terra"] {
+            let read = read(&format!("nm,R,{name}\n400,1,0\n"));
+            let left_out = format!("`{name}`");
+            assert_eq!(
+                read.warnings([360.0, 830.0]),
+                [TableWarning::Columns { left_out }],
+                "{name}"
+            );
+        }
+    }
+
+    #[test]
+    fn the_first_word_of_a_comment_is_no_angstrom() {
+        let points = [(400.0, 0.25), (500.0, 0.5)];
+        let expected = Sampled::new(&points, Beyond::Hold).unwrap();
+        for comment in [
+            "# A,CIE standard illuminant",
+            "# A CIE standard illuminant",
+            "# A: tungsten, 2856 K",
+            "# a) first, b) second",
+            "# Meter: X-Rite i1",
+        ] {
+            let read = read(&format!("{comment}\n400,0.25\n500,0.5\n"));
+            assert_eq!(read.curve, expected, "{comment}");
+            assert_eq!(read.warnings([360.0, 830.0]), [], "{comment}");
+        }
+        for header in ["A,R", "# [A],R", "# Å,R"] {
+            let read = read(&format!("{header}\n4000,0.25\n5000,0.5\n"));
+            assert_eq!(read.curve, expected, "{header}");
+        }
+    }
+
+    #[test]
+    fn a_bracket_left_open_in_a_long_line_takes_no_time() {
+        for words in [" a", " in nm", " / 10 nm"] {
+            let text = format!("({}\n400 0.25\n500 0.5\n", words.repeat(100_000));
+            let begun = std::time::Instant::now();
+            let _ = Measured::from_csv(&text);
+            assert!(
+                begun.elapsed().as_secs_f64() < 5.0,
+                "{words}: {:?}",
+                begun.elapsed()
+            );
+        }
+    }
 }

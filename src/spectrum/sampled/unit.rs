@@ -59,11 +59,11 @@ const SYMBOLS: [(&str, ToNm); 3] = [
     ("MeV", ToNm::Over(NM_EV * 1e-6)),
 ];
 
-/// What follows a unit that is inverted, and one that is squared or cubed.
-const INVERTED: [&str; 7] = ["-1", "^-1", "^{-1}", "^(-1)", "**-1", "⁻¹", "−1"];
-const RAISED: [&str; 12] = [
-    "2", "^2", "²", "-2", "^-2", "⁻²", "3", "^3", "³", "-3", "^-3", "⁻³",
-];
+/// Digits of exponents, from 0.
+const RAISED: [char; 10] = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
+
+/// What may stand between the factors of a unit.
+const TIMES: [char; 6] = [' ', '·', '⋅', '*', '.', '_'];
 
 /// Words that need no unit to be understood.
 const WAVENUMBERS: [&str; 4] = ["wavenumber", "wave number", "wellenzahl", "kayser"];
@@ -80,11 +80,6 @@ impl Unit {
     /// Whether it is the nm itself.
     pub fn is_nm(&self) -> bool {
         self.to_nm == ToNm::Times(1.0)
-    }
-
-    /// Whether it is none of length: a density in it is not one over wavelength.
-    pub fn is_reciprocal(&self) -> bool {
-        matches!(self.to_nm, ToNm::Over(_))
     }
 
     /// The unit that the name of a column holds, if any.
@@ -105,17 +100,22 @@ impl Unit {
         found.or_else(|| angstrom().then(|| Self::plain("Å", ToNm::Times(0.1))))
     }
 
-    /// Whether a column's values are per unit of something else than the nm.
+    /// Whether a column's values are per unit of something else than the nm: of volume too, which
+    /// is of area and of wavelength.
     pub(super) fn divides(name: &str) -> bool {
         words(name).any(|word| {
-            let Some(unit) = word.plain_unit() else {
+            let unit = word.plain_unit().or_else(|| word.angstrom());
+            let Some(unit) = unit.filter(|unit| unit.name != "nm") else {
                 return false;
             };
-            let raised = RAISED.iter().any(|power| word.after.starts_with(power));
-            let over = word.before.ends_with('/') || word.before.ends_with("per ");
             // Lumens per metre are those of a whole strip of light.
-            let over = over && !["m", "cm", "mm"].contains(&unit.name);
-            unit.name != "nm" && (word.is_inverted() || over && !raised)
+            let length = ["m", "cm", "mm"].contains(&unit.name);
+            match word.power() {
+                -3 => true,
+                1 => word.is_inverted() || word.is_divisor() && !length,
+                3 => word.is_divisor(),
+                _ => word.is_inverted(),
+            }
         })
     }
 
@@ -186,10 +186,40 @@ impl Word<'_> {
         called(self.text).or_else(|| called(&self.text[last..]))
     }
 
+    /// The ångström that an A among other units is.
+    fn angstrom(&self) -> Option<Unit> {
+        let before = self.before.trim_end_matches(TIMES);
+        let follows = self.is_inverted() && before.ends_with(char::is_numeric);
+        let is = self.text == "A" && (follows || self.is_divisor());
+        is.then(|| Unit::plain("Å", ToNm::Times(0.1)))
+    }
+
     fn is_inverted(&self) -> bool {
         let one_over = self.before.trim_end().strip_suffix('/');
-        one_over.is_some_and(|before| before.trim_end().ends_with('1'))
-            || INVERTED.iter().any(|power| self.after.starts_with(power))
+        one_over.is_some_and(|before| before.trim_end().ends_with('1')) || self.power() == -1
+    }
+
+    /// Whether it stands behind a stroke or `per`, alone or after other units, in a bracket or not.
+    fn is_divisor(&self) -> bool {
+        let stroke = self.before.rsplit_once('/');
+        let stroke = stroke.filter(|(_, between)| {
+            let mut words = between.split(|c: char| !c.is_alphabetic());
+            !between.contains([')', ']', ',', ';']) && words.all(|word| word.chars().count() <= 3)
+        });
+        stroke.is_some() || self.before.ends_with("per ")
+    }
+
+    /// Its exponent; 1 if there is none.
+    fn power(&self) -> i32 {
+        let after = self.after.trim_start_matches(['^', '*', '{', '(']);
+        let (sign, after) = match after.strip_prefix(['-', '−', '⁻']) {
+            Some(after) => (-1, after),
+            None => (1, after),
+        };
+        let raised = |c: char| RAISED.iter().position(|digit| *digit == c);
+        let digit = after.chars().next();
+        let digit = digit.and_then(|c| c.to_digit(10).or(raised(c).map(|d| d as u32)));
+        digit.map_or(1, |digit| sign * digit as i32)
     }
 }
 
@@ -278,6 +308,23 @@ mod tests {
             "W m^-2 sr^-1 µm^-1",
             "per eV",
             "W/m2/Hz",
+            "W·sr⁻¹·m⁻³",
+            "W sr^-1 m^-3",
+            "W m-3",
+            "W m^{-3}",
+            "W/m3/sr",
+            "W/m³",
+            "W/(sr m^3)",
+            "W m-2 sr-1 um-1",
+            "W/(m2 sr um)",
+            "W/(m²·sr·µm)",
+            "W/m² sr µm",
+            "erg/s/cm2/A",
+            "erg/s/cm2/Å",
+            "erg/(s cm^2 A)",
+            "erg s-1 cm-2 A-1",
+            "erg s⁻¹ cm⁻² Å⁻¹",
+            "erg/s/cm³",
         ] {
             assert!(Unit::divides(name), "{name}");
         }
@@ -288,6 +335,14 @@ mod tests {
             "uW/cm2/nm",
             "lm/m",
             "mm",
+            "W/(m2 sr nm)",
+            "W/m² sr",
+            "m3",
+            "A",
+            "Sample A-1",
+            "illuminant A",
+            "lm/(sr m)",
+            "R/T of a film, 5 um",
         ] {
             assert!(!Unit::divides(name), "{name}");
         }
