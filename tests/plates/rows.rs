@@ -116,7 +116,7 @@ fn plate_8_goes_from_blue_to_black_towards_the_right() {
         falling.windows(2).all(|pair| pair[1] < 0.5 * pair[0]),
         "{falling:?}"
     );
-    // 7904, 2269, 599, 46 and 7.3 cd/m2.
+    // About 59, 17, 4.3, 0.33 and 0.05 cd/m2.
     assert!(falling[4] < 1e-3 * falling[0], "{falling:?}");
     let end: Vec<_> = plate
         .covered()
