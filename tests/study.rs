@@ -168,7 +168,8 @@ fn finer_settings_err_less() {
     };
     let spectra = |setting| light("accuracy.spectra", setting);
     assert!(spectra("grid, 84 wavelengths") < 1e-3);
-    assert!(spectra("grid, 84 wavelengths") < spectra("grid, 11 wavelengths"));
+    // So few that every curve is narrow for them, and integrated.
+    assert!(spectra("grid, 11 wavelengths") < 1e-3);
     assert!(spectra("lines, 1 nm") < spectra("lines, 10 nm"));
     assert!(spectra("rgb, no shift") > 0.1, "a shift of 0.3 c is seen");
     let samples = |setting| light("image.samples", setting);
