@@ -49,7 +49,7 @@ impl Curve {
     }
 
     /// Held so that none of its light falls between wavelengths, if it is so narrow that some would:
-    /// `narrow` makes what it is then held as, and what is baked is each wavelength's share.
+    /// `narrow` makes what it is then held as, and what is baked becomes each wavelength's share.
     pub(super) fn narrowed_within(
         mut self,
         reach: f64,
@@ -73,7 +73,10 @@ impl Curve {
         if baked.is_none_or(|baked| fine.is_served_by(baked, noticed)) {
             return self;
         }
-        self.baked = self.table(reach, Smoothing::Mean, |nm| fine.near(nm));
+        // Without a table it goes on being read as written by whoever wants the curve.
+        if self.baked.is_some() {
+            self.baked = self.table(reach, Smoothing::Mean, |nm| fine.near(nm));
+        }
         self.narrow = Some(narrow(fine, &self.spectrum));
         self
     }
@@ -140,7 +143,7 @@ impl Curve {
     }
 
     /// Writes the curve at `shift`·λ for the axis' wavelengths; `out` is to be multiplied by what
-    /// is returned. Of a narrow curve these are means over a spacing.
+    /// is returned. Of a narrow curve that is baked these are means over a spacing.
     #[inline(always)]
     pub(super) fn read(&self, shift: f64, out: &mut [f32]) -> f64 {
         match &self.baked {
