@@ -140,7 +140,7 @@ impl Fine {
     }
 
     /// Whether sums over the axis of `baked`, the same curve, are as good: whether under a weight
-    /// that falls to nothing six spacings to either side, and rises by [`SLOPE`] a spacing, the
+    /// that falls to nothing six spacings to either side, and rises by 0.15 a spacing, the
     /// sum is that of the curve but for the share `noticed`, wherever the weight is put.
     pub fn is_served_by(&self, baked: &Baked, noticed: f64) -> bool {
         const REACH: i64 = 6;
