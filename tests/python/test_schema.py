@@ -19,7 +19,7 @@ BEYOND = set("""
     absurd-array beta-one beta-ramp camera-looks-at-itself camera-on-itself dangling-material
     dangling-spectrum dangling-worldline emissivity-above-one field-of-view field-of-view-key
     infinity inner-exceeds-outer inset-above-inset inset-outside inset-twice inset-without-png
-    key-after-the-end keys-descend lab-redefined
+    key-after-the-end keys-descend lab-redefined lamp-too-strong
     light-without-amount lines-of-radio lines-too-sparse look-at-and-yaw missing-csv
     missing-file missing-sky model-extension model-is-a-folder nan no-kind overflowing-number
     panorama-too-high point-at-zero point-without-position points-descend reflectance-above-one
