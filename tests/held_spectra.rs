@@ -84,7 +84,10 @@ fn scene() -> (Shot, Scene) {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("held spectra");
     std::fs::create_dir_all(&folder).unwrap();
     let quad = "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nf 1 2 3 4\n";
-    std::fs::write(folder.join("quad.obj"), quad).unwrap();
+    // Whole at any time: other tests read it.
+    let part = folder.join(format!("quad {:?}.part", std::thread::current().id()));
+    std::fs::write(&part, quad).unwrap();
+    std::fs::rename(&part, folder.join("quad.obj")).unwrap();
     let wall = |name| {
         format!(
             "[[model]]\nname = \"{name}\"\nfile = \"quad.obj\"\nworldline = \"fast\"\nmaterial = \"{name}\"\n"

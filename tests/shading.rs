@@ -57,7 +57,10 @@ fn shot(emissivity: &str) -> (Shot, Scene) {
     let folder = &Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("shading {emissivity:?}"));
     std::fs::create_dir_all(folder).unwrap();
     let quad = "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nf 1 2 3 4\n";
-    std::fs::write(folder.join("quad.obj"), quad).unwrap();
+    // Whole at any time: other tests read it.
+    let part = folder.join(format!("quad {:?}.part", std::thread::current().id()));
+    std::fs::write(&part, quad).unwrap();
+    std::fs::rename(&part, folder.join("quad.obj")).unwrap();
     let text = SHOT.replace("EMISSIVITY", emissivity);
     let shot = shot::parse(&text, &folder.join("shading.toml")).unwrap();
     let library = Library::load(&shot).unwrap();
