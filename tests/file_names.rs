@@ -181,7 +181,7 @@ fn urls_are_answered_with_a_path() {
                 "a path, not a URL: \"/somewhere/my things/zebra",
             ),
             (
-                "file://localhost/work/models/q",
+                "file://localhost/home/models/q",
                 "a path, not a URL: \"models/q",
             ),
             ("file:models/q", "did you mean \"models/q"),
