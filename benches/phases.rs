@@ -7,12 +7,12 @@ mod read;
 
 use divan::{Bencher, black_box, counter::ItemsCount};
 use read::read;
+use restframe::accel::Aggregate;
 use restframe::film::exr::{self, Depth};
 use restframe::film::{Development, Film, Metadata, develop, png};
 use restframe::queue::Prepared;
 use restframe::render::{Options, development, render};
 use restframe::scene::Scene;
-use restframe::trace::Stage;
 use std::path::Path;
 
 fn main() {
@@ -59,7 +59,7 @@ impl Picture {
         });
     }
 
-    fn read(&self) -> (Prepared, Scene, Stage) {
+    fn read(&self) -> (Prepared, Scene, Aggregate) {
         let sphere = Path::new(env!("CARGO_MANIFEST_DIR")).join("assets/sphere.obj");
         let sphere = sphere.to_str().expect("a path in UTF-8");
         let scene = self.scene.replace("SPHERE", sphere);

@@ -7,11 +7,12 @@ mod shell;
 
 use divan::Bencher;
 use rayon::prelude::*;
+use restframe::accel::Aggregate;
 use restframe::film::Film;
 use restframe::queue::{Prepared, Taken, pictures};
 use restframe::render::{Member, Options, Watch, film_bytes, render, render_together};
 use restframe::scene::Scene;
-use restframe::trace::Stage;
+use restframe::trace::build_aggregate;
 use shell::shell;
 use std::path::Path;
 use std::sync::atomic::AtomicBool;
@@ -28,7 +29,7 @@ fn main() {
 struct Images {
     prepared: Prepared,
     scene: Scene,
-    stage: Stage,
+    stage: Aggregate,
     options: Options,
     pool: rayon::ThreadPool,
 }
@@ -84,7 +85,7 @@ impl Images {
 fn films(
     pool: &rayon::ThreadPool,
     members: &[Member<'_>],
-    stage: &Stage,
+    stage: &Aggregate,
     options: &Options,
 ) -> Vec<Film> {
     let stop = &AtomicBool::new(false);
@@ -155,7 +156,7 @@ fn time_ramp(frames: u32) {
         Scene::resolve(&shot, &library, frame, earlier).expect("it resolves")
     };
     let first = resolve(1, None);
-    let stage = Stage::build(&first.geometry, None);
+    let stage = build_aggregate(&first.geometry, None);
     let encode = |frame, scene: &Scene, film: &Film| {
         let taken = Taken {
             exposure_stops: -9.3,

@@ -5,12 +5,13 @@
     reason = "a test that cannot be set up has failed"
 )]
 
+use restframe::accel::Aggregate;
 use restframe::film::{Film, SILENT};
 use restframe::probe::{Probe, probe};
 use restframe::queue::Prepared;
 use restframe::render::{Enough, Member, Options, View, enough_bounces, render, rows, spliced};
 use restframe::scene::Scene;
-use restframe::trace::Stage;
+use restframe::trace::build_aggregate;
 use std::path::Path;
 
 const WALL: &str = "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nf 1 2 3 4\n";
@@ -33,7 +34,7 @@ fn sees(text: &str, pixel: [u32; 2]) -> Probe {
     let prepared = Prepared::read(&path).unwrap();
     let shot = &prepared.shot;
     let scene = Scene::resolve(shot, &prepared.library, 1, None).unwrap();
-    let stage = Stage::build(&scene.geometry, None);
+    let stage = build_aggregate(&scene.geometry, None);
     let splice = shot.splice.iter().find(|s| rows(s, 9).contains(&pixel[1]));
     let effects = splice.map_or(shot.effects, |splice| spliced(&shot.effects, splice));
     let view = View::new(shot, 1, &effects, &scene, &stage).unwrap();
@@ -119,7 +120,7 @@ fn what_is_left_out_is_what_the_answer_says() {
 }
 
 /// A film of [`furnace`] and the member it is of, handed to `look`.
-fn film_of<T>(bounces: u32, look: impl FnOnce(Member<'_>, &Stage, &Film) -> T) -> T {
+fn film_of<T>(bounces: u32, look: impl FnOnce(Member<'_>, &Aggregate, &Film) -> T) -> T {
     let folder = tempfile::tempdir().unwrap();
     let assets = Path::new(env!("CARGO_MANIFEST_DIR")).join("assets");
     std::fs::copy(assets.join("sphere.obj"), folder.path().join("ball.obj")).unwrap();
@@ -129,7 +130,7 @@ fn film_of<T>(bounces: u32, look: impl FnOnce(Member<'_>, &Stage, &Film) -> T) -
     let prepared = Prepared::read(&path).unwrap();
     let shot = &prepared.shot;
     let scene = Scene::resolve(shot, &prepared.library, 1, None).unwrap();
-    let stage = Stage::build(&scene.geometry, None);
+    let stage = build_aggregate(&scene.geometry, None);
     let options = Options {
         width: 96,
         height: 96,

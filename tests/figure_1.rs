@@ -18,7 +18,7 @@ use restframe::probe::{Probe, probe};
 use restframe::queue::Prepared;
 use restframe::render::View;
 use restframe::scene::Scene;
-use restframe::trace::Stage;
+use restframe::trace::build_aggregate;
 use std::path::{Path, PathBuf};
 
 /// Of D, relative.
@@ -61,7 +61,7 @@ fn probes() -> Vec<Probe> {
     (1..=shot.shot.frames)
         .map(|frame| {
             let scene = Scene::resolve(shot, &prepared.library, frame, None).unwrap();
-            let stage = Stage::build(&scene.geometry, None);
+            let stage = build_aggregate(&scene.geometry, None);
             let view = View::new(shot, frame, &shot.effects, &scene, &stage).unwrap();
             probe(shot, frame, [0, 0], &view, &scene, 0.0)
         })

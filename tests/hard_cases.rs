@@ -14,6 +14,8 @@ mod card;
 
 #[path = "hard_cases/boosts.rs"]
 mod boosts;
+#[path = "hard_cases/displacement.rs"]
+mod displacement;
 #[path = "hard_cases/doppler.rs"]
 mod doppler;
 #[path = "hard_cases/eye.rs"]

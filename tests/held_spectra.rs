@@ -6,6 +6,7 @@
 )]
 
 use glam::DVec3;
+use restframe::accel::Hit;
 use restframe::plan;
 use restframe::queue::Prepared;
 use restframe::scene::sky::{SkyImage, Star, Stars};
@@ -14,7 +15,7 @@ use restframe::shade::{Settings, ShadeScratch, Shader};
 use restframe::shot::{self, Beaming, SensorColor, Shot, Spectra, Switch};
 use restframe::spectrum::uplift::HUE_ERROR;
 use restframe::spectrum::{cie, planck};
-use restframe::trace::{BodyHit, Branch, Lit, Node, Root, Seen, ShadeTrees, Surface, Term};
+use restframe::trace::{Branch, Lit, Node, Root, Seen, ShadeTrees, Surface, Term};
 use std::path::Path;
 use std::sync::Arc;
 
@@ -205,7 +206,7 @@ fn seen(scene: &Scene, end: End, lamps: usize) -> Seen {
         return Seen::Sky(DVec3::NEG_Z);
     };
     let material = scene.materials.iter().position(|m| m.name == name).unwrap();
-    let hit = BodyHit {
+    let hit = Hit {
         t: 1.0,
         instance: 0,
         triangle: 0,

@@ -6,13 +6,14 @@
     reason = "a test's helpers fail by panicking"
 )]
 
+use restframe::accel::Hit;
 use restframe::plan;
 use restframe::scene::{Curve, Library, Material, Reflectance, Scene, Thermal};
 use restframe::shade::{Settings, ShadeScratch, Shader};
 use restframe::shot::{self, Accuracy, Shot, Spectra};
 use restframe::spectrum::cie::{EFFICACY, xyz_bar};
 use restframe::spectrum::{Beyond, Cardinal, Sampled, Spectrum, illuminant};
-use restframe::trace::{BodyHit, Branch, Lit, Node, Root, Seen, ShadeTrees, Surface, Term};
+use restframe::trace::{Branch, Lit, Node, Root, Seen, ShadeTrees, Surface, Term};
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
@@ -191,7 +192,7 @@ impl Wall {
                 material: self.number(material),
                 s: 1.0,
                 time: 0.0,
-                hit: BodyHit {
+                hit: Hit {
                     t: 1.0,
                     instance: 0,
                     triangle: 0,

@@ -5,11 +5,12 @@
     reason = "a test that cannot be set up has failed"
 )]
 
+use restframe::accel::Hit;
 use restframe::plan;
 use restframe::scene::{Library, Scene};
 use restframe::shade::{Settings, ShadeScratch, Shader};
 use restframe::shot::{self, SensorColor, Shot, Spectra};
-use restframe::trace::{BodyHit, Lit, Node, Root, Seen, ShadeTrees, Surface};
+use restframe::trace::{Lit, Node, Root, Seen, ShadeTrees, Surface};
 use std::path::Path;
 
 /// One material of every kind, three lamps; the wall moves, so every effect is called for.
@@ -113,7 +114,7 @@ fn trees(doppler: f64, lamp_doppler: f64) -> ShadeTrees {
         diffuse: share,
         highlight: 0.3,
     };
-    let hit = BodyHit {
+    let hit = Hit {
         t: 1.0,
         instance: 0,
         triangle: 0,

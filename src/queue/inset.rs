@@ -1,12 +1,12 @@
 //! Plots of single pixels, drawn into a frame's picture.
 
+use crate::accel::Aggregate;
 use crate::film::plot::{LEAST_INSET, lay_out_inset, svg};
 use crate::film::raster;
 use crate::probe;
 use crate::render::{View, motion_mistake};
 use crate::scene::Scene;
 use crate::shot::{Inset, Shot};
-use crate::trace::Stage;
 
 /// A frame whose pixels are looked at.
 #[derive(Clone, Copy)]
@@ -14,7 +14,7 @@ pub(super) struct Seen<'a> {
     pub(super) shot: &'a Shot,
     pub(super) frame: u32,
     pub(super) scene: &'a Scene,
-    pub(super) stage: &'a Stage,
+    pub(super) stage: &'a Aggregate,
     /// Stops.
     pub(super) exposure: f64,
 }

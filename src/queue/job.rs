@@ -13,11 +13,11 @@ use super::reel::{Glance, Reel, ReelError, Status};
 use super::shard::Shard;
 use super::shots::{Exposing, Prepared, Request};
 use super::write::check_writable;
+use crate::accel::Aggregate;
 use crate::plan::{FrameKey, Trace};
 use crate::render::Options;
 use crate::scene::Scene;
 use crate::shot::{Mistakes, Shot};
-use crate::trace::Stage;
 use rayon::prelude::*;
 use std::collections::{BTreeMap, HashMap};
 use std::io;
@@ -48,7 +48,7 @@ pub struct Job {
     pub(super) ledger: Option<Ledger>,
     pub(super) exposing: Option<Exposing>,
     /// Trees to be taken over by the next image.
-    pub(super) kept: Option<(Scene, Stage)>,
+    pub(super) kept: Option<(Scene, Aggregate)>,
     pub(super) end: End,
 }
 

@@ -1,11 +1,11 @@
 //! A film to the files of one frame, as bytes.
 
 use super::inset::Seen;
+use crate::accel::Aggregate;
 use crate::film::{self, EncodeError, Film, Metadata, SILENT, develop, exr};
 use crate::render::{Enough, Member, development, enough_bounces};
 use crate::scene::Scene;
 use crate::shot::{Depth, Exposure, Format, Sensor, Sequence, Shot, Track};
-use crate::trace::Stage;
 
 /// The files of a frame: extension and content, and how many values had to be clamped.
 pub struct Pictures {
@@ -39,7 +39,7 @@ pub fn pictures(
     shot: &Shot,
     frame: u32,
     scene: &Scene,
-    stage: &Stage,
+    stage: &Aggregate,
     film: &Film,
     taken: Taken<'_>,
 ) -> Result<Pictures, EncodeError> {
@@ -90,7 +90,7 @@ pub fn pictures(
 }
 
 /// Says how much of a picture's light was not followed, and what would do, if that is much.
-fn cut_light(member: Member<'_>, stage: &Stage, film: &Film) -> Option<String> {
+fn cut_light(member: Member<'_>, stage: &Aggregate, film: &Film) -> Option<String> {
     let share = film.left_out.share();
     if share <= SILENT {
         return None;

@@ -2,13 +2,13 @@
 
 use super::frames::FrameList;
 use super::shifts::refuse_shifted_numbers;
+use crate::accel::Aggregate;
 use crate::film::EncodeError;
 use crate::plan;
 use crate::render::{Options, metered_exposure};
 use crate::scene::{Library, Scene};
 use crate::shade::{Settings, Unresolved, unresolved};
 use crate::shot::{self, Exposure, Mistakes, Shot};
-use crate::trace::Stage;
 use rayon::prelude::*;
 use std::path::{Path, PathBuf};
 
@@ -118,7 +118,7 @@ impl Prepared {
     ///
     /// # Errors
     /// Mistakes of frame 1.
-    pub fn exposure(&self) -> Result<(Exposing, Option<(Scene, Stage)>), Mistakes> {
+    pub fn exposure(&self) -> Result<(Exposing, Option<(Scene, Aggregate)>), Mistakes> {
         match &self.shot.sensor.exposure {
             Exposure::Stops(stops) => Ok((Exposing::Authored(stops.clone()), None)),
             Exposure::Auto(_) => {

@@ -11,12 +11,13 @@ use super::progress::Progress;
 use super::record::{blank, stops, warnings};
 use super::shots::{Exposing, Prepared, RenderError};
 use super::write::{is_full, twice, write_atomically};
+use crate::accel::Aggregate;
 use crate::film::Film;
 use crate::plan::{self, FrameKey, MotionError};
 use crate::render::{Member, Together, TogetherError, Watch, motion_mistake, render_together};
 use crate::scene::Scene;
-use crate::shot::{Mistakes, Shot};
-use crate::trace::Stage;
+use crate::shot::Mistakes;
+use crate::trace::build_aggregate;
 use rayon::prelude::*;
 use std::io;
 use std::sync::Arc;
@@ -80,7 +81,7 @@ impl Foreman<'_> {
         let kept = jobs[first].kept.take();
         let scenes = scenes(jobs, batch, kept.as_ref().map(|(scene, _)| scene))?;
         let jobs = &*jobs;
-        let stage = stage(kept, &scenes[0], jobs[first].reel.shot());
+        let stage = stage(kept, &scenes[0]);
         let prepare = begun.elapsed().as_secs_f64();
         let member = |(ready, scene)| {
             let Ready { task, .. }: &Ready = ready;
@@ -309,7 +310,7 @@ struct Shoot {
     first: usize,
     /// One for each frame.
     scenes: Vec<Scene>,
-    stage: Stage,
+    stage: Aggregate,
     together: Together,
 }
 
@@ -330,14 +331,13 @@ fn scenes(jobs: &[Job], batch: &[Ready], kept: Option<&Scene>) -> Result<Vec<Sce
 }
 
 /// Bodies taken over from the last image where they stand as they stood, trees where they can be.
-fn stage(kept: Option<(Scene, Stage)>, scene: &Scene, shot: &Shot) -> Stage {
+fn stage(kept: Option<(Scene, Aggregate)>, scene: &Scene) -> Aggregate {
     match kept {
         Some((old, stage)) if Arc::ptr_eq(&old.geometry, &scene.geometry) => stage,
-        other => Stage::with_precision(
-            &scene.geometry,
-            other.as_ref().map(|(_, stage)| stage),
-            shot.accuracy.tracing,
-        ),
+        other => {
+            let earlier = other.as_ref().map(|(_, stage)| stage);
+            build_aggregate(&scene.geometry, earlier)
+        }
     }
 }
 

@@ -1,18 +1,19 @@
 //! One image under one set of effects: everything a ray needs.
 
 use super::{Member, rows, spliced};
+use crate::accel::Aggregate;
 use crate::plan::{self, Called, MotionError};
 use crate::scene::Scene;
 use crate::shade::{Settings, Shader};
 use crate::shot::{Accuracy, Effects, Sensor, SensorColor, Shot, Spectra, Switch};
-use crate::trace::{Spacetime, Stage, Tracer};
+use crate::trace::{Spacetime, Tracer};
 use std::ops::Range;
 use std::sync::{Arc, OnceLock};
 
 /// One image under one set of effects: everything a ray needs.
 pub struct View<'a> {
     scene: &'a Scene,
-    stage: &'a Stage,
+    stage: &'a Aggregate,
     /// What is simulated.
     pub called: Called,
     standing: Arc<Standing>,
@@ -33,7 +34,7 @@ impl<'a> View<'a> {
         frame: u32,
         switches: &Effects,
         scene: &'a Scene,
-        stage: &'a Stage,
+        stage: &'a Aggregate,
     ) -> Result<Self, MotionError> {
         Self::sharing(&Standings::default(), shot, frame, switches, scene, stage)
     }
@@ -45,7 +46,7 @@ impl<'a> View<'a> {
         frame: u32,
         switches: &Effects,
         scene: &'a Scene,
-        stage: &'a Stage,
+        stage: &'a Aggregate,
     ) -> Result<Self, MotionError> {
         let called = plan::called(shot, frame, switches)?;
         // Where nothing moves the links are translations, which cost nothing; light still takes
@@ -192,7 +193,7 @@ pub(super) struct Standings {
 }
 
 impl Standings {
-    fn under(&self, geometry: Switch, scene: &Scene, stage: &Stage) -> Arc<Standing> {
+    fn under(&self, geometry: Switch, scene: &Scene, stage: &Aggregate) -> Arc<Standing> {
         let made = match geometry {
             Switch::Auto => &self.finite,
             Switch::Off => &self.snapshot,
@@ -239,7 +240,7 @@ impl<'a> Views<'a> {
     /// Prepares an image of so many rows.
     pub(super) fn new(
         member: Member<'a>,
-        stage: &'a Stage,
+        stage: &'a Aggregate,
         height: u32,
         standings: &Standings,
     ) -> Result<Self, MotionError> {

@@ -29,7 +29,7 @@ use crate::queue::{Names, Prepared};
 use crate::render::{Options, motion_mistake};
 use crate::scene::Scene;
 use crate::shot::{Accuracy, Mistakes, Shot, Spectra};
-use crate::trace::Stage;
+use crate::trace::build_aggregate;
 use findings::{Machine, Noise, PhaseTime};
 use knobs::KNOBS;
 use paper::Compared;
@@ -120,7 +120,7 @@ pub fn study(
     let (exposing, _) = prepared.exposure()?;
     let subject = Subject::new(shot, frame, &exposing, request.scratch.clone());
     let scene = Scene::resolve(shot, &prepared.library, frame, None)?;
-    let stage = Stage::with_precision(&scene.geometry, None, shot.accuracy.tracing);
+    let stage = build_aggregate(&scene.geometry, None);
     let start = Start {
         shot,
         frame,

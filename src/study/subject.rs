@@ -2,12 +2,12 @@
 
 use super::StudyError;
 use super::memory::{forget_peak, peak_mib};
+use crate::accel::Aggregate;
 use crate::film::{Film, develop};
 use crate::queue::{Exposing, Pictures, Taken, pictures, write_atomically};
 use crate::render::{Options, Profile, View, development, motion_mistake, render_profiled};
 use crate::scene::Scene;
 use crate::shot::Shot;
-use crate::trace::Stage;
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Instant;
@@ -15,7 +15,7 @@ use std::time::Instant;
 /// A scene and its bodies, ready for rays.
 pub(super) struct Bodies {
     pub(super) scene: Scene,
-    pub(super) stage: Stage,
+    pub(super) stage: Aggregate,
 }
 
 /// The image of which variants are rendered.

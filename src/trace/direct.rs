@@ -2,9 +2,9 @@
 //! rest frame.
 
 use super::clock::timed_shadow;
-use super::stage::RestRay;
 use super::surface::Place;
 use super::{Lit, Tracer};
+use crate::accel::Ray;
 use crate::relativity::{Event, light_arriving};
 use crate::scene::{Light, LightShape, Material};
 use glam::DVec3;
@@ -132,11 +132,11 @@ fn in_shadow(tracer: &Tracer<'_>, surface: &Place, light: &Light, incoming: &Inc
                 .light(incoming.in_lamp);
             (there.x, seen)
         };
-        let ray = RestRay {
+        let ray = Ray {
             origin,
             direction: -seen.direction,
         };
         let reach = distance * spacetime.path_ratio(seen.frequency_ratio);
-        tracer.stage.blocks(worldline, &ray, reach)
+        tracer.stage.occludes_ray(worldline, &ray, reach)
     })
 }

@@ -2,7 +2,7 @@
 //! the surface and of everything it may have come from.
 
 use super::spacetime::Spacetime;
-use super::stage::RestRay;
+use crate::accel::Ray;
 use crate::relativity::{Event, FourVector};
 use glam::DVec3;
 
@@ -23,7 +23,7 @@ pub(super) struct Flight {
 /// A [`Flight`] in the rest frame of some worldline.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct RestFlight {
-    pub(super) ray: RestRay,
+    pub(super) ray: Ray,
     /// Time there at the start.
     time: f64,
     slowness: f64,
@@ -50,7 +50,7 @@ impl Flight {
     pub(super) fn among(&self, worldline: usize, spacetime: &Spacetime) -> Option<RestFlight> {
         if worldline == self.worldline {
             return Some(RestFlight {
-                ray: RestRay {
+                ray: Ray {
                     origin: self.start.x,
                     direction: self.direction,
                 },
@@ -75,7 +75,7 @@ impl Flight {
             (-step.x / stretch, step.t / stretch, stretch)
         };
         Some(RestFlight {
-            ray: RestRay {
+            ray: Ray {
                 origin: start.x,
                 direction: towards_light,
             },

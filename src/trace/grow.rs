@@ -274,7 +274,7 @@ impl Tracer<'_> {
                 continue;
             };
             let reach = best.as_ref().map_or(f64::INFINITY, |n| n.s * rest.stretch);
-            if let Some(hit) = self.stage.nearest(worldline, &rest.ray, reach) {
+            if let Some(hit) = self.stage.intersect_ray(worldline, &rest.ray, reach) {
                 let s = hit.t / rest.stretch;
                 if best.as_ref().is_none_or(|n| s < n.s) {
                     best = Some(Nearest {

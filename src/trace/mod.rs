@@ -1,6 +1,6 @@
 //! Camera rays to shade trees: geometry, visibility and Doppler factors, no spectrum.
 //!
-//! In: a [`Scene`], its [`Stage`] of bodies, the [`Spacetime`] of the image and the directions of
+//! In: a [`Scene`], its [`Aggregate`] of bodies, the [`Spacetime`] of the image and the directions of
 //! some camera rays. Out: [`ShadeTrees`], one for each ray, in flat arrays.
 //!
 //! A camera ray is an event and a past-pointing null vector k whose frequency is 1 in the
@@ -9,34 +9,30 @@
 //! the frequency ratio, so s is the length there over that ratio, and 1 over it is the Doppler
 //! factor.
 
-mod ball;
-mod bvh;
+mod bodies;
 mod clock;
 mod direct;
 mod flight;
 mod grow;
-mod mesh_tree;
 mod optics;
 mod ray;
-mod real;
 mod sampler;
 mod spacetime;
-mod stage;
 mod surface;
 mod tree;
-mod triangle;
 
+use crate::accel::{Aggregate, Hit, Ray};
 use crate::scene::{Material, Scene};
 use clock::{timed, timed_without_shadows};
 use glam::DVec3;
 use grow::Buds;
 use surface::Place;
 
+pub use bodies::build_aggregate;
 pub use clock::{Clock, Phase};
 pub use ray::boost_directions;
 pub use sampler::{Samples, filter_offset};
 pub use spacetime::{Link, Spacetime};
-pub use stage::{BodyHit, RestRay, Stage};
 pub use tree::{Branch, Lit, Node, Root, Seen, ShadeTrees, Surface, Term};
 
 /// Scratch memory of [`Tracer::trace`], to be kept from call to call.
@@ -52,7 +48,7 @@ pub struct Scratch {
 struct Nearest {
     /// Length of the light path in the rest frame that the ray starts in.
     s: f64,
-    hit: BodyHit,
+    hit: Hit,
     /// In the rest frame of what was hit: when the light left, the ray's direction, and ω over
     /// what it is where the ray starts.
     time: f64,
@@ -65,7 +61,7 @@ pub struct Tracer<'a> {
     /// The scene.
     pub scene: &'a Scene,
     /// Its bodies.
-    pub stage: &'a Stage,
+    pub stage: &'a Aggregate,
     /// How its worldlines stand to each other.
     pub spacetime: &'a Spacetime,
     /// Whether bodies cast shadows.
@@ -125,13 +121,13 @@ impl Tracer<'_> {
     fn traverse(&self, worldline: usize, scratch: &mut Scratch) {
         let camera = self.spacetime.camera_event(worldline);
         for (nearest, &(direction, ratio)) in scratch.nearest.iter_mut().zip(&scratch.boosted) {
-            let ray = RestRay {
+            let ray = Ray {
                 origin: camera.x,
                 direction,
             };
             let path = self.spacetime.path_ratio(ratio);
             let reach = nearest.as_ref().map_or(f64::INFINITY, |n| n.s * path);
-            if let Some(hit) = self.stage.nearest(worldline, &ray, reach) {
+            if let Some(hit) = self.stage.intersect_ray(worldline, &ray, reach) {
                 let s = hit.t / path;
                 if nearest.as_ref().is_none_or(|n| s < n.s) {
                     *nearest = Some(Nearest {
@@ -169,11 +165,8 @@ impl Tracer<'_> {
     #[inline(always)]
     fn place(&self, nearest: &Nearest, material: &Material) -> Option<Place> {
         let lit = material.takes_lamps() && !self.scene.lights.is_empty();
-        (lit || material.passes_light_on()).then(|| {
-            let mut place = Place::new(self.scene, &nearest.hit, nearest.direction, nearest.time);
-            place.point.clearance = self.stage.clearance(place.point.clearance);
-            place
-        })
+        (lit || material.passes_light_on())
+            .then(|| Place::new(self.scene, &nearest.hit, nearest.direction, nearest.time))
     }
 
     /// Adds the node of a hit, and the lamps on it.

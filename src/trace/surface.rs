@@ -1,6 +1,6 @@
 //! A surface event and its surroundings, in the surface's rest frame.
 
-use super::stage::BodyHit;
+use crate::accel::Hit;
 use crate::relativity::Event;
 use crate::scene::{Scene, SurfacePoint};
 use glam::DVec3;
@@ -20,7 +20,7 @@ pub(super) struct Place {
 
 impl Place {
     /// Where a ray of unit direction `incoming` (rest frame of what it hit) ends, at `time` there.
-    pub(super) fn new(scene: &Scene, hit: &BodyHit, incoming: DVec3, time: f64) -> Self {
+    pub(super) fn new(scene: &Scene, hit: &Hit, incoming: DVec3, time: f64) -> Self {
         let geometry = &scene.geometry;
         let mut point = geometry.surface_point(hit.instance, hit.triangle, hit.weights);
         if !hit.front {

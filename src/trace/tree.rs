@@ -4,7 +4,7 @@
 //! A tree's nodes stand together, parents before children. Each keeps the one Doppler factor of
 //! its whole way to the camera: shifts in a row are one shift by their product.
 
-use super::stage::BodyHit;
+use crate::accel::Hit;
 use glam::DVec3;
 
 /// Shade trees of some camera rays.
@@ -104,7 +104,7 @@ pub struct Surface {
     /// When the light left, in the surface's rest frame, metres of light travel.
     pub time: f64,
     /// What was hit where.
-    pub hit: BodyHit,
+    pub hit: Hit,
     /// Its lamps: this many …
     pub lamps: u32,
     /// … from this index of [`ShadeTrees::lit`] on.

@@ -5,6 +5,7 @@
 
 use super::random::Random;
 use rayon::prelude::*;
+use restframe::accel::Hit;
 use restframe::film::compare::{Comparison, delta_e_2000, lab_from_xyz};
 use restframe::plan;
 use restframe::scene::{Curve, Library, Material, Reflectance, Scene, Thermal};
@@ -13,7 +14,7 @@ use restframe::shot::{self, Accuracy, Preset, Shot, Spectra};
 use restframe::spectrum::cie::xyz_of;
 use restframe::spectrum::color_space::D65_XYZ;
 use restframe::spectrum::{Beyond, Spectrum, planck};
-use restframe::trace::{BodyHit, Lit, Node, Root, Seen, ShadeTrees, Surface};
+use restframe::trace::{Lit, Node, Root, Seen, ShadeTrees, Surface};
 use std::sync::Arc;
 
 const SHADINGS: u64 = 1000;
@@ -126,7 +127,7 @@ impl Shading {
     }
 
     fn trees(&self) -> ShadeTrees {
-        let hit = BodyHit {
+        let hit = Hit {
             t: 1.0,
             instance: 0,
             triangle: 0,

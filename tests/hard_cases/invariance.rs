@@ -14,7 +14,7 @@ use crate::scene::Set;
 use glam::DVec3;
 use restframe::film::Film;
 use restframe::render::View;
-use restframe::trace::{Node, Root, Scratch, ShadeTrees, Stage, Term};
+use restframe::trace::{Node, Root, Scratch, ShadeTrees, Term, build_aggregate};
 
 /// Light and D of each pixel may differ by this share of themselves, eight roundings of the film's
 /// f32 (the greatest value of the film is 1e6 times the least and more, so it would hide all else).
@@ -210,7 +210,7 @@ bounces = BOUNCES
 fn totally_reflected(text: &str) -> usize {
     let set = Set::new(text);
     let (shot, scene) = (&set.prepared.shot, set.scene());
-    let stage = Stage::build(&scene.geometry, None);
+    let stage = build_aggregate(&scene.geometry, None);
     let view = View::new(shot, 1, &shot.effects, &scene, &stage).unwrap();
     let [width, height] = shot.image.size;
     let directions: Vec<DVec3> = (0..width * height)

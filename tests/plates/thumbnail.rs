@@ -6,7 +6,7 @@ use restframe::queue::Prepared;
 use restframe::render::{Options, View, render, rows, spliced};
 use restframe::scene::Scene;
 use restframe::spectrum::color_space::{RGB_FROM_XYZ, encode};
-use restframe::trace::Stage;
+use restframe::trace::build_aggregate;
 use std::path::Path;
 
 /// Pixels in a row.
@@ -60,7 +60,7 @@ pub(crate) fn prepared(stem: &str) -> Prepared {
 /// The film of one frame.
 pub(crate) fn film(prepared: &Prepared, frame: u32) -> Film {
     let scene = Scene::resolve(&prepared.shot, &prepared.library, frame, None).unwrap();
-    let stage = Stage::build(&scene.geometry, None);
+    let stage = build_aggregate(&scene.geometry, None);
     let options = Options {
         width: WIDTH,
         height: HEIGHT,
@@ -88,7 +88,7 @@ impl Thumbnail {
         };
         let rgb8 = png::to_rgb8(&develop(&film, &development), encode);
         let scene = Scene::resolve(shot, &prepared.library, frame, None).unwrap();
-        let stage = Stage::build(&scene.geometry, None);
+        let stage = build_aggregate(&scene.geometry, None);
         let (mut probes, mut directions) = (Vec::new(), Vec::new());
         for y in 0..HEIGHT {
             let splice = shot
