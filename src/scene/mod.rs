@@ -8,6 +8,7 @@ pub mod model;
 pub mod sky;
 
 mod body;
+mod bsdf;
 mod camera;
 mod library;
 mod light;
@@ -18,10 +19,11 @@ mod spectra;
 mod surfaces;
 
 pub use body::{Geometry, Instance, SurfacePoint};
+pub use bsdf::{Bsdf, Lobe, LobeKind, Reflectance};
 pub use camera::Camera;
 pub use library::Library;
 pub use light::{Light, LightShape};
-pub use material::{Curve, Highlight, Material, Reflectance, Refraction, Thermal};
+pub use material::{Curve, Material, Thermal};
 pub use model::Mesh;
 pub use projection::Projection;
 pub use resolve::Scene;

@@ -6,30 +6,29 @@ use super::received::{Received, finite};
 use super::table::XyzTable;
 use super::thermal::Glow;
 use crate::plan::Called;
-use crate::scene::{Material, Reflectance, Scene, Thermal};
+use crate::scene::{Lobe, Material, Scene, Thermal};
 use crate::shot::{self, Accuracy, Spectra};
 use crate::spectrum::quadrature::cuts_nm;
 use crate::spectrum::{Fine, FineSensor, Quadrature, Sensor, Spectrum, planck};
-use crate::trace::Term;
 use std::cell::OnceCell;
 use std::sync::Arc;
 
 /// A material's curves.
 pub(super) struct MaterialCurves {
-    pub(super) diffuse: Option<Reflecting>,
-    pub(super) highlight: Option<Reflecting>,
+    /// Its lobes, in their order; those that are not specular stand first.
+    lobes: Vec<Reflecting>,
+    non_specular: usize,
     pub(super) emission: Option<Sight>,
     pub(super) glow: Option<Glow>,
-    mirror: Option<Curve>,
-    refraction: Option<Curve>,
     /// Whether a curve that makes light of its own or of lamps is narrow.
     pub(super) narrow: bool,
 }
 
 impl MaterialCurves {
-    /// Diffuse and highlight.
-    pub(super) fn reflecting(&self) -> impl Iterator<Item = &Option<Reflecting>> {
-        [&self.diffuse, &self.highlight].into_iter()
+    /// The lobes that reflect lamps.
+    #[inline(always)]
+    pub(super) fn reflecting(&self) -> &[Reflecting] {
+        &self.lobes[..self.non_specular]
     }
 
     /// Memory of curves and tables, bytes.
@@ -38,26 +37,21 @@ impl MaterialCurves {
             let tables = r.tables.iter().flatten().map(XyzTable::bytes);
             r.reflectance.bytes() + tables.sum::<usize>()
         };
-        let passing = [&self.mirror, &self.refraction].into_iter().flatten();
-        self.reflecting().flatten().map(reflecting).sum::<usize>()
-            + passing.map(Curve::bytes).sum::<usize>()
+        self.lobes.iter().map(reflecting).sum::<usize>()
             + self.emission.as_ref().map_or(0, Sight::bytes)
             + self.glow.as_ref().map_or(0, Glow::bytes)
     }
 
-    /// The share of light that a term passes on.
-    pub(super) fn passing(&self, term: Term) -> Option<&Curve> {
-        match term {
-            Term::Mirror => self.mirror.as_ref(),
-            Term::Refraction => self.refraction.as_ref(),
-        }
+    /// The share of light that a lobe passes on.
+    pub(super) fn passing(&self, lobe: u32) -> &Curve {
+        &self.lobes[lobe as usize].reflectance
     }
 }
 
 /// A reflectance, and XYZ of its product with each emitter for lamps that move with the surface.
 pub(super) struct Reflecting {
     pub(super) reflectance: Curve,
-    /// By emitter; None where none is made.
+    /// By emitter, none for a specular lobe; None where none is made.
     pub(super) tables: Vec<Option<XyzTable>>,
 }
 
@@ -211,8 +205,14 @@ impl Bake<'_> {
     }
 
     pub(super) fn surface(&self, material: &Material, emitters: &[Sight]) -> MaterialCurves {
-        let reflecting = |weight: f64, spectrum: &Arc<Spectrum>| {
-            let reflectance = self.curve(spectrum, weight, 1.0);
+        let lobe = |lobe: &Lobe| {
+            let own = &lobe.reflectance;
+            let reflectance = self.curve(&own.spectrum, own.weight, 1.0);
+            let emitters = if lobe.kind.is_specular() {
+                &[]
+            } else {
+                emitters
+            };
             let tables = emitters
                 .iter()
                 .map(|e| self.product(&reflectance, &e.curve))
@@ -222,22 +222,14 @@ impl Bake<'_> {
                 tables,
             }
         };
-        let passing =
-            |term: Option<&Reflectance>| term.map(|r| self.curve(&r.spectrum, r.weight, 1.0));
         let thermal = material
             .thermal
             .as_ref()
             .filter(|_| self.settings.called.thermal);
         let mut curves = MaterialCurves {
             narrow: false,
-            diffuse: material
-                .diffuse
-                .as_ref()
-                .map(|r| reflecting(r.weight, &r.spectrum)),
-            highlight: material
-                .highlight
-                .as_ref()
-                .map(|h| reflecting(h.reflectance.weight, &h.reflectance.spectrum)),
+            lobes: material.bsdf.lobes().iter().map(lobe).collect(),
+            non_specular: material.bsdf.non_specular().len(),
             emission: material.emission.as_ref().map(|e| {
                 self.sight(
                     self.curve(&e.spectrum, e.weight, f64::INFINITY),
@@ -245,10 +237,8 @@ impl Bake<'_> {
                 )
             }),
             glow: thermal.map(|t| self.glow(t)),
-            mirror: passing(material.mirror.as_ref()),
-            refraction: passing(material.refraction.as_ref().map(|r| &r.transmittance)),
         };
-        let reflectances = curves.reflecting().flatten().map(|r| &r.reflectance);
+        let reflectances = curves.reflecting().iter().map(|r| &r.reflectance);
         let sources = curves.emission.iter().map(|sight| &sight.curve);
         let emissivity = curves.glow.iter().map(|glow| glow.parts().1);
         let narrow = reflectances

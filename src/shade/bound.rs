@@ -37,7 +37,7 @@ impl CurveShader {
         let lamps: Vec<Roughness> = self.emitters.iter().map(|e| rough(&e.curve, far)).collect();
         let mut worst = 0.0f64;
         for surface in &self.surfaces {
-            for term in surface.reflecting().flatten() {
+            for term in surface.reflecting() {
                 let own = rough(&term.reflectance, near);
                 for (emitter, lamp) in self.emitters.iter().zip(&lamps) {
                     let reading = |curve| Reading { curve, shift: 1.0 };

@@ -10,7 +10,7 @@ use super::received::{Received, finite};
 use super::thermal::Glow;
 use crate::scene::{Material, Reflectance, Scene};
 use crate::spectrum::{LogAxis, Spectrum};
-use crate::trace::{Node, Root, Seen, ShadeTrees, Surface, Term};
+use crate::trace::{Node, Root, Seen, ShadeTrees, Surface};
 use glam::DVec3;
 use std::sync::Arc;
 
@@ -65,12 +65,11 @@ pub(super) enum Part {
 
 /// A material's terms.
 struct Terms<C> {
-    diffuse: Option<C>,
-    highlight: Option<C>,
+    /// Reflectances of its lobes, in their order; those that are not specular stand first.
+    lobes: Vec<C>,
+    non_specular: usize,
     emission: Option<C>,
     thermal: Option<C>,
-    mirror: Option<C>,
-    refraction: Option<C>,
 }
 
 /// A scene's spectra in components.
@@ -125,8 +124,9 @@ impl<H: Holding> ComponentShader<H> {
 
     /// How many spectra it holds, at most.
     pub(super) fn held(&self) -> usize {
-        const TERMS: usize = 6;
-        TERMS * self.surfaces.len() + self.emitters.len()
+        let own_light = 2 * self.surfaces.len();
+        let lobes = self.surfaces.iter().map(|s| s.lobes.len());
+        lobes.sum::<usize>() + own_light + self.emitters.len()
     }
 
     /// What the camera receives along a ray.
@@ -166,7 +166,9 @@ impl<H: Holding> ComponentShader<H> {
             &before[branch.parent as usize],
         );
         let share = match by.seen {
-            Seen::Surface(surface) => self.surfaces[surface.material as usize].passing(branch.term),
+            Seen::Surface(surface) => {
+                Some(&self.surfaces[surface.material as usize].lobes[branch.lobe as usize])
+            }
             Seen::Sky(_) => None,
         };
         let Some(share) = share else {
@@ -242,25 +244,12 @@ impl<H: Holding> ComponentShader<H> {
             let scale = finite(scale * self.received.irradiance(lit.doppler));
             let shift = self.received.shift(lit.doppler);
             let arriving = self.holding.seen(&self.emitters[emitter], shift, buffer);
-            for (term, share) in [
-                (&terms.diffuse, lit.diffuse),
-                (&terms.highlight, lit.highlight),
-            ] {
-                if let Some(reflectance) = term
-                    && share > 0.0
-                {
-                    light.add_product(arriving, reflectance, finite(scale * share));
+            let lobes = &terms.lobes[..terms.non_specular];
+            for (reflectance, weight) in lobes.iter().zip(trees.weights_of(lit, lobes.len())) {
+                if *weight > 0.0 {
+                    light.add_product(arriving, reflectance, finite(scale * weight));
                 }
             }
-        }
-    }
-}
-
-impl<C> Terms<C> {
-    fn passing(&self, term: Term) -> Option<&C> {
-        match term {
-            Term::Mirror => self.mirror.as_ref(),
-            Term::Refraction => self.refraction.as_ref(),
         }
     }
 }
@@ -284,11 +273,11 @@ impl<H: Holding> Hold<'_, H> {
     }
 
     fn terms(&self, material: &Material) -> Terms<H::Held> {
-        let share = |term: Option<&Reflectance>| term.map(|term| self.share(term));
+        let lobes = material.bsdf.lobes().iter();
         let glow = material.thermal.as_ref().filter(|_| self.thermal);
         Terms {
-            diffuse: share(material.diffuse.as_ref()),
-            highlight: share(material.highlight.as_ref().map(|h| &h.reflectance)),
+            lobes: lobes.map(|lobe| self.share(&lobe.reflectance)).collect(),
+            non_specular: material.bsdf.non_specular().len(),
             emission: material
                 .emission
                 .as_ref()
@@ -298,8 +287,6 @@ impl<H: Holding> Hold<'_, H> {
                 let glow = Glow::new(thermal, emissivity);
                 self.holding.light(|nm| glow.at(nm))
             }),
-            mirror: share(material.mirror.as_ref()),
-            refraction: share(material.refraction.as_ref().map(|r| &r.transmittance)),
         }
     }
 }

@@ -170,7 +170,9 @@ impl CurveShader {
         };
         let by = nodes[branch.parent as usize];
         let curve = match by.seen {
-            Seen::Surface(surface) => self.surfaces[surface.material as usize].passing(branch.term),
+            Seen::Surface(surface) => {
+                Some(self.surfaces[surface.material as usize].passing(branch.lobe))
+            }
             Seen::Sky(_) => None,
         };
         passages.go_on(&branch, curve, self.received.shift(by.doppler));
@@ -210,7 +212,7 @@ impl CurveShader {
         if !lamps.is_empty() {
             add(
                 &mut sum,
-                self.lamps_xyz(lamps, doppler, curves, scratch),
+                self.lamps_xyz(trees, lamps, doppler, curves, scratch),
                 1.0,
             );
         }
@@ -253,7 +255,7 @@ impl CurveShader {
             );
         }
         for lit in trees.lamps_on(surface) {
-            self.add_lamp(curves, doppler, lit, &mut light.surface, scratch);
+            self.add_lamp(trees, curves, doppler, lit, &mut light.surface, scratch);
         }
     }
 }

@@ -50,7 +50,9 @@ impl CurveShader {
         let branch = node.branch?;
         let by = &nodes[branch.parent as usize];
         let curve = match by.seen {
-            Seen::Surface(surface) => self.surfaces[surface.material as usize].passing(branch.term),
+            Seen::Surface(surface) => {
+                Some(self.surfaces[surface.material as usize].passing(branch.lobe))
+            }
             Seen::Sky(_) => None,
         };
         Some(Way {
@@ -103,39 +105,37 @@ impl CurveShader {
         let own = &self.surfaces[surface.material as usize];
         let power = self.received.radiance(doppler);
         let surface_shift = self.received.shift(doppler);
-        let mut groups: Vec<(usize, f64, [f64; 2])> = Vec::new();
+        let lobes = own.reflecting();
+        let mut groups: Vec<(usize, f64, Vec<f64>)> = Vec::new();
         for lit in trees.lamps_on(surface) {
             let (emitter, scale) = self.lamps[lit.light as usize];
             let shift = self.received.shift(lit.doppler) * surface_shift;
             let scale = finite(scale * self.received.irradiance(lit.doppler));
-            let shares = [lit.diffuse, lit.highlight].map(|share| finite(scale * share));
+            let weights = trees.weights_of(lit, lobes.len()).iter();
+            let shares = weights.map(|weight| finite(scale * weight));
             match groups.iter_mut().find(|g| (g.0, g.1) == (emitter, shift)) {
-                Some((.., sum)) => (0..2).for_each(|i| sum[i] += shares[i]),
-                None => groups.push((emitter, shift, shares)),
+                Some((.., sums)) => sums
+                    .iter_mut()
+                    .zip(shares)
+                    .for_each(|(sum, share)| *sum += share),
+                None => groups.push((emitter, shift, shares.collect())),
             }
         }
-        for (emitter, shift, [diffuse, highlight]) in groups {
-            let term = |share: f64, curve: Option<&'a Curve>| {
-                curve.filter(|_| share > 0.0).map(|curve| Reflected {
-                    factor: finite(finite(share) * power),
-                    reading: Reading {
-                        curve,
-                        shift: surface_shift,
-                    },
-                })
-            };
-            let curve = |term: &'a Option<super::bake::Reflecting>| {
-                term.as_ref().map(|reflecting| &reflecting.reflectance)
-            };
+        for (emitter, shift, shares) in groups {
+            let lit = lobes.iter().zip(shares).filter(|(_, share)| *share > 0.0);
+            let terms = lit.map(|(lobe, share)| Reflected {
+                factor: finite(finite(share) * power),
+                reading: Reading {
+                    curve: &lobe.reflectance,
+                    shift: surface_shift,
+                },
+            });
             sources.push(Source::Lit {
                 light: Reading {
                     curve: &self.emitters[emitter].curve,
                     shift,
                 },
-                terms: [
-                    term(diffuse, curve(&own.diffuse)),
-                    term(highlight, curve(&own.highlight)),
-                ],
+                terms: terms.collect(),
             });
         }
     }
@@ -172,10 +172,10 @@ pub(super) enum Source<'a> {
         light: ColoredLight,
         d65: Reading<'a>,
     },
-    /// Lamps of one spectrum and shift, reflected as diffuse light and as highlight.
+    /// Lamps of one spectrum and shift, reflected by the surface's lobes.
     Lit {
         light: Reading<'a>,
-        terms: [Option<Reflected<'a>>; 2],
+        terms: Vec<Reflected<'a>>,
     },
 }
 
@@ -196,8 +196,8 @@ impl Source<'_> {
             }
             Self::Lit { light, terms } => {
                 let light = light.at(nm);
-                let terms = terms.iter().flatten();
                 terms
+                    .iter()
                     .map(|term| finite(term.factor * light) * term.reading.at(nm))
                     .sum()
             }
@@ -224,8 +224,7 @@ impl Source<'_> {
             }
             Self::Lit { light, terms } => {
                 light.add_cuts(cuts);
-                let terms = terms.iter().flatten();
-                terms.for_each(|term| term.reading.add_cuts(cuts));
+                terms.iter().for_each(|term| term.reading.add_cuts(cuts));
             }
         }
     }

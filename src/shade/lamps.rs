@@ -1,12 +1,12 @@
 //! Light of lamps on a surface, under the shifts of both.
 
-use super::bake::MaterialCurves;
+use super::bake::{MaterialCurves, Reflecting};
 use super::curve::Curve;
 use super::curves::{CurveShader, add};
 use super::exact::Reading;
 use super::received::finite;
 use super::shader::ShadeScratch;
-use crate::trace::Lit;
+use crate::trace::{DirectLight, ShadeTrees};
 
 /// The shifts of a surface's reflectance and of a lamp's light to the camera, and their logarithms.
 struct Shifts {
@@ -23,7 +23,8 @@ impl CurveShader {
     /// so that each table is read once.
     pub(super) fn lamps_xyz(
         &self,
-        lamps: &[Lit],
+        trees: &ShadeTrees,
+        lamps: &[DirectLight],
         doppler: f64,
         surface: &MaterialCurves,
         scratch: &mut ShadeScratch,
@@ -31,55 +32,61 @@ impl CurveShader {
         let mut sum = [0.0; 3];
         let shift = self.received.shift(doppler);
         let ln_shift = shift.ln();
-        scratch.comoving.clear();
-        scratch.comoving.resize(self.emitters.len(), [0.0; 2]);
+        let lobes = surface.reflecting();
+        // Weights by emitter, then by lobe.
+        let mut comoving = std::mem::take(&mut scratch.comoving);
+        comoving.clear();
+        comoving.resize(self.emitters.len() * lobes.len(), 0.0);
         for lit in lamps {
             let (emitter, scale) = self.lamps[lit.light as usize];
             let scale = scale * self.received.irradiance(lit.doppler);
-            let shares = [scale * lit.diffuse, scale * lit.highlight].map(finite);
+            let weights = trees.weights_of(lit, lobes.len());
             let lamp_shift = self.received.shift(lit.doppler);
             let shared = lamp_shift == 1.0 || self.emitters[emitter].curve.constant().is_some();
-            let mut terms = surface.reflecting().flatten();
-            if shared && terms.all(|term| term.tables[emitter].is_some()) {
-                scratch.comoving[emitter][0] += shares[0];
-                scratch.comoving[emitter][1] += shares[1];
+            if shared && lobes.iter().all(|lobe| lobe.tables[emitter].is_some()) {
+                let sums = &mut comoving[emitter * lobes.len()..];
+                for (sum, weight) in sums.iter_mut().zip(weights) {
+                    *sum += finite(scale * weight);
+                }
             } else {
                 let shifts = Shifts {
                     factors: [shift, shift * lamp_shift],
                     ln: [ln_shift, ln_shift + lamp_shift.ln()],
                 };
-                let xyz = self.lamp_xyz(surface, emitter, shares, &shifts, scratch);
+                let shares = weights.iter().map(|weight| finite(scale * weight));
+                let lit = lobes.iter().zip(shares);
+                let xyz = self.lamp_xyz(lit, emitter, &shifts, scratch);
                 add(&mut sum, xyz, 1.0);
             }
         }
-        for (emitter, shares) in scratch.comoving.iter().enumerate() {
-            for (term, share) in surface.reflecting().zip(shares) {
-                if let Some(reflecting) = term
-                    && let Some(table) = &reflecting.tables[emitter]
-                    && *share > 0.0
-                {
-                    add(&mut sum, table.at(ln_shift), finite(*share));
+        if !lobes.is_empty() {
+            for (emitter, shares) in comoving.chunks_exact(lobes.len()).enumerate() {
+                for (lobe, share) in lobes.iter().zip(shares) {
+                    if let Some(table) = &lobe.tables[emitter]
+                        && *share > 0.0
+                    {
+                        add(&mut sum, table.at(ln_shift), finite(*share));
+                    }
                 }
             }
         }
+        scratch.comoving = comoving;
         let power = self.received.radiance(doppler);
         sum.map(|v| v * power)
     }
 
     /// Light of one lamp that moves against the surface: two shifts, of reflectance and emitter.
-    fn lamp_xyz(
+    fn lamp_xyz<'a>(
         &self,
-        surface: &MaterialCurves,
+        lit: impl Iterator<Item = (&'a Reflecting, f64)>,
         emitter: usize,
-        shares: [f64; 2],
         shifts: &Shifts,
         scratch: &mut ShadeScratch,
     ) -> [f64; 3] {
         let mut sum = [0.0; 3];
         let [ln_surface, ln_lamp] = shifts.ln;
         let emitter = &self.emitters[emitter];
-        for (term, share) in surface.reflecting().zip(shares) {
-            let Some(reflecting) = term else { continue };
+        for (reflecting, share) in lit {
             if share <= 0.0 {
                 continue;
             }
@@ -143,9 +150,10 @@ impl CurveShader {
     /// Adds the spectral radiance that one lamp makes of a surface.
     pub(super) fn add_lamp(
         &self,
+        trees: &ShadeTrees,
         surface: &MaterialCurves,
         doppler: f64,
-        lit: &Lit,
+        lit: &DirectLight,
         out: &mut [f64],
         scratch: &mut ShadeScratch,
     ) {
@@ -157,14 +165,10 @@ impl CurveShader {
             .read(shift * self.received.shift(lit.doppler), light);
         let factor =
             scale * peak * self.received.radiance(doppler) * self.received.irradiance(lit.doppler);
-        for (term, share) in [
-            (&surface.diffuse, lit.diffuse),
-            (&surface.highlight, lit.highlight),
-        ] {
-            if let Some(reflecting) = term
-                && share > 0.0
-            {
-                let factor = finite(factor * share * reflecting.reflectance.read(shift, reflected));
+        let lobes = surface.reflecting();
+        for (lobe, weight) in lobes.iter().zip(trees.weights_of(lit, lobes.len())) {
+            if *weight > 0.0 {
+                let factor = finite(factor * weight * lobe.reflectance.read(shift, reflected));
                 for ((out, light), reflected) in out.iter_mut().zip(&*light).zip(&*reflected) {
                     *out += factor * f64::from(light * reflected);
                 }

@@ -150,9 +150,7 @@ impl CurveShader {
             let Seen::Surface(surface) = by.seen else {
                 return [0.0; 3];
             };
-            let Some(curve) = self.surfaces[surface.material as usize].passing(branch.term) else {
-                return [0.0; 3];
-            };
+            let curve = self.surfaces[surface.material as usize].passing(branch.lobe);
             share *= branch.share;
             way.push(Reading {
                 curve,
@@ -192,7 +190,7 @@ impl CurveShader {
         own || way
             .filter_map(|branch| match nodes[branch.parent as usize].seen {
                 Seen::Surface(surface) => {
-                    self.surfaces[surface.material as usize].passing(branch.term)
+                    Some(self.surfaces[surface.material as usize].passing(branch.lobe))
                 }
                 Seen::Sky(_) => None,
             })
@@ -324,7 +322,6 @@ fn products<'a>(source: &'a Source<'a>) -> Vec<Product<'a>> {
         }
         Source::Lit { light, terms } => terms
             .iter()
-            .flatten()
             .map(|term| product(term.factor, vec![*light, term.reading], None))
             .collect(),
     }

@@ -108,7 +108,6 @@ impl Passages {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::trace::Term;
 
     #[test]
     fn nothing_of_infinitely_much_light_is_nothing() {
@@ -116,7 +115,7 @@ mod tests {
         passages.start();
         let branch = Branch {
             parent: 0,
-            term: Term::Mirror,
+            lobe: 0,
             share: 1.0,
             doppler: 1.0,
         };

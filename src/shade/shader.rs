@@ -135,7 +135,7 @@ pub(super) fn quadrature(sensor: &shot::Sensor) -> Quadrature {
 /// Scratch memory of a [`Shader`], to be kept from ray to ray.
 #[derive(Default)]
 pub struct ShadeScratch {
-    pub(super) comoving: Vec<[f64; 2]>,
+    pub(super) comoving: Vec<f64>,
     light: Vec<f32>,
     reflected: Vec<f32>,
     pub(super) passages: Passages,

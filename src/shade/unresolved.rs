@@ -80,7 +80,7 @@ pub fn unresolved(scene: &Scene, settings: &Settings<'_>) -> Vec<Unresolved> {
             let mut own = scene.lights.iter().zip(&shader.lamps);
             let moving = own.find(|(light, lamp)| lamp.0 == emitter && moves(scene, light));
             let Some((light, _)) = moving else { continue };
-            let errors = curves.reflecting().flatten();
+            let errors = curves.reflecting().iter();
             let errors = errors.filter_map(|term| shader.lost(term, emitter));
             let error = errors.fold(0.0, f64::max);
             if error > TOLD {
@@ -101,9 +101,8 @@ pub fn unresolved(scene: &Scene, settings: &Settings<'_>) -> Vec<Unresolved> {
 
 /// The spectra of what a material reflects of lamps.
 fn reflectances(material: &Material) -> impl Iterator<Item = &Spectrum> {
-    let highlight = material.highlight.as_ref().map(|h| &h.reflectance);
-    let terms = material.diffuse.iter().chain(highlight);
-    terms.map(|term| &*term.spectrum)
+    let lobes = material.bsdf.non_specular().iter();
+    lobes.map(|lobe| &*lobe.reflectance.spectrum)
 }
 
 /// Whether a lamp and some body are on worldlines of their own.
