@@ -4,8 +4,8 @@
 //! published; between them straight lines, beyond them the end's value.
 
 use super::planck::C2;
-use super::tables::{self, Uniform};
 use super::{Beyond, PlanckShape, Sampled, Spectrum};
+use crate::color::tables::{self, Uniform};
 
 /// The names that [`illuminant`] knows.
 pub const NAMES: &[&str] = &["A", "C", "D50", "D55", "D65", "D75", "E", "F2", "F7", "F11"];
@@ -63,7 +63,7 @@ fn relative(table: &Uniform) -> Sampled {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::spectrum::cie;
+    use crate::color::cie;
 
     #[test]
     fn every_illuminant_is_one_at_560_nm_and_holds_its_end() {

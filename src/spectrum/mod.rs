@@ -5,24 +5,22 @@
 //! may bring any of them into view. The curves that the author wrote stand here as they were
 //! written; how they are held for rendering is another matter.
 //!
-//! A leaf: nothing else of ours is imported.
+//! Of ours, only [`color`](crate::color) is imported.
 
 mod band;
 mod bound;
 pub mod cardinal;
-pub mod cie;
-pub mod color_space;
 mod fine;
 pub mod illuminant;
 mod lines;
 mod log_grid;
+mod luminous;
 mod narrow_bound;
 pub mod planck;
 pub mod quadrature;
 mod roughness;
 pub mod sampled;
 mod sensor;
-mod tables;
 mod through;
 mod tinted;
 pub mod uplift;
@@ -33,6 +31,7 @@ pub use fine::{Fine, FineSensor};
 pub use illuminant::illuminant;
 pub use lines::{LINES_NM, LineAxis, Lines};
 pub use log_grid::{Baked, LogAxis, Shifted, Smoothing};
+pub use luminous::luminous_integral;
 pub use planck::PlanckShape;
 pub use quadrature::Quadrature;
 pub use roughness::Roughness;

@@ -2,8 +2,8 @@
 //! has them, or the totals of three bands.
 
 use super::band;
-use super::cie::{EFFICACY, RANGE_NM, xyz_bar};
 use super::log_grid::{LANES, LogAxis, Shifted};
+use crate::color::cie::{EFFICACY, RANGE_NM, xyz_bar};
 
 /// Longest steps of the quadrature that makes the weights of XYZ, nm.
 const STEP_NM: f64 = 0.1;
@@ -226,7 +226,7 @@ pub fn catmull_rom(t: f64) -> [f64; 4] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::spectrum::cie::{xyz_of, xyz_with_substeps};
+    use crate::color::cie::{xyz_of, xyz_with_substeps};
 
     #[test]
     fn weights_are_not_negative_and_sum_to_the_equal_energy_white() {

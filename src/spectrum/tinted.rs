@@ -81,9 +81,9 @@ impl Tinted {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::color::cie::xyz_with_substeps;
+    use crate::color::spaces::{RGB_FROM_XYZ, apply};
     use crate::spectrum::Spectrum;
-    use crate::spectrum::cie::xyz_with_substeps;
-    use crate::spectrum::color_space::{RGB_FROM_XYZ, apply};
 
     /// Linear RGB of a curve, over that of D65's luminance.
     fn color(curve: &Tinted) -> [f64; 3] {

@@ -12,7 +12,7 @@
 //! (0.2 s on one core). Each entry is fitted by itself: the same on any number of threads.
 
 use super::{HALF_NM, MIDDLE_NM, fit::fit, quadratic, sigmoid, variable};
-use crate::spectrum::cie::RANGE_NM;
+use crate::color::cie::RANGE_NM;
 use crate::spectrum::sensor::catmull_rom;
 use rayon::prelude::*;
 use std::sync::LazyLock;

@@ -14,9 +14,9 @@ pub use light::{ColoredLight, HUE_ERROR};
 
 use std::sync::LazyLock;
 
-use super::cie::{RANGE_NM, xyz_bar};
-use super::color_space::{RGB_FROM_XYZ, apply};
 use super::{Beyond, SpectrumError, illuminant, sampled::MAX_VALUE};
+use crate::color::cie::{RANGE_NM, xyz_bar};
+use crate::color::spaces::{RGB_FROM_XYZ, apply};
 
 /// Middle and half-width of the range, nm: the quadratic's variable is u = (λ − middle)/half.
 const MIDDLE_NM: f64 = 0.5 * (RANGE_NM[0] + RANGE_NM[1]);
@@ -192,8 +192,9 @@ static WEIGHTS: LazyLock<Vec<(f64, [f64; 3])>> = LazyLock::new(|| {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::spectrum::cie::xyz_with_substeps;
-    use crate::spectrum::color_space::{D65_XYZ, XYZ_FROM_RGB, lab_from_xyz};
+    use crate::color::cie::xyz_with_substeps;
+    use crate::color::lab_from_xyz;
+    use crate::color::spaces::{D65_XYZ, XYZ_FROM_RGB};
     use proptest::prelude::*;
 
     /// The curve's color, by the same sums: what the fit set out to meet.
