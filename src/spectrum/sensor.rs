@@ -2,6 +2,7 @@
 //! has them, or the totals of three bands.
 
 use super::band;
+use super::cubic::catmull_rom;
 use super::log_grid::{LANES, LogAxis, Shifted};
 use crate::color::cie::{EFFICACY, RANGE_NM, xyz_bar};
 
@@ -210,17 +211,6 @@ fn padded(rest: &[f32]) -> [f32; LANES] {
     let mut lanes = [0.0; LANES];
     lanes[..rest.len()].copy_from_slice(rest);
     lanes
-}
-
-/// Weights of the four neighbours of a point a fraction t past the second (Catmull & Rom 1974).
-pub fn catmull_rom(t: f64) -> [f64; 4] {
-    let (t2, t3) = (t * t, t * t * t);
-    [
-        0.5 * (-t3 + 2.0 * t2 - t),
-        0.5 * (3.0 * t3 - 5.0 * t2 + 2.0),
-        0.5 * (-3.0 * t3 + 4.0 * t2 + t),
-        0.5 * (t3 - t2),
-    ]
 }
 
 #[cfg(test)]

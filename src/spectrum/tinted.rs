@@ -3,7 +3,7 @@
 //! What files say by three numbers is light of the white that the numbers are relative to, so
 //! that (1, 1, 1) is D65 itself. Beyond their tables both go on with their ends' values.
 
-use super::illuminant::d65;
+use super::daylight::d65;
 use super::uplift::Uplift;
 use super::{Sampled, SpectrumError};
 

@@ -1,6 +1,6 @@
 //! The fit of a colour's curve: coefficients by the method of Levenberg and Marquardt.
 
-use super::{WEIGHTS, quadratic, sigmoid};
+use super::sigmoid::{WEIGHTS, quadratic, sigmoid};
 use crate::color::spaces::{Matrix, apply, inverse};
 
 /// Greatest weighted error at which a fit is done.

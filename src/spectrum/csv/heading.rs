@@ -1,6 +1,6 @@
 //! What the lines before a measured table's rows say of its columns.
 
-use super::TableError;
+use super::fault::TableError;
 use super::table::{Parted, Table};
 use super::unit::Unit;
 
@@ -206,7 +206,8 @@ fn names_any(name: &str, words: &[&str]) -> bool {
 #[cfg(test)]
 mod tests {
     use crate::spectrum::Beyond;
-    use crate::spectrum::sampled::{Measured, Sampled, TableWarning};
+    use crate::spectrum::Sampled;
+    use crate::spectrum::csv::{Measured, TableWarning};
 
     fn read(text: &str) -> Measured {
         Measured::from_csv(text).unwrap_or_else(|e| panic!("{text:?}: {e}"))

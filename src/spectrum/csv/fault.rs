@@ -1,7 +1,7 @@
 //! What is wrong with a measured table, and what it may not mean as it is read.
 
 use super::unit::Unit;
-use super::{MAX_ROWS, MAX_VALUE};
+use crate::spectrum::{MAX_ROWS, MAX_VALUE};
 use std::fmt;
 
 /// How far below 0 values may be, as a part of the greatest: instruments have a few hundredths of

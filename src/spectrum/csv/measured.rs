@@ -3,8 +3,7 @@
 use super::fault::{NOISE, TableError, TableWarning};
 use super::heading::Heading;
 use super::table::Table;
-use super::{MAX_ROWS, MAX_VALUE, Sampled};
-use crate::spectrum::Beyond;
+use crate::spectrum::{Beyond, MAX_ROWS, MAX_VALUE, Sampled};
 
 /// How far from the sensor's window, as a ratio, points in no stated unit are still believed.
 const NEAR: f64 = 2.0;
