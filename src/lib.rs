@@ -59,8 +59,12 @@
 
 pub mod accel;
 pub mod cli;
+pub mod color;
 pub mod film;
+pub mod image;
+pub mod model;
 pub mod plan;
+pub mod plot;
 pub mod probe;
 pub mod queue;
 pub mod relativity;

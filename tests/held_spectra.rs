@@ -7,14 +7,15 @@
 
 use glam::DVec3;
 use restframe::accel::Hit;
+use restframe::color::cie;
 use restframe::plan;
 use restframe::queue::Prepared;
 use restframe::scene::sky::{SkyImage, Star, Stars};
 use restframe::scene::{Library, Scene};
 use restframe::shade::{Settings, ShadeScratch, Shader};
 use restframe::shot::{self, Beaming, SensorColor, Shot, Spectra, Switch};
+use restframe::spectrum::planck;
 use restframe::spectrum::uplift::HUE_ERROR;
-use restframe::spectrum::{cie, planck};
 use restframe::trace::{Branch, DirectLight, Node, Root, Seen, ShadeTrees, Surface};
 use std::path::Path;
 use std::sync::Arc;

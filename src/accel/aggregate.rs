@@ -5,7 +5,7 @@ use super::instance::Instance;
 use super::instance_bvh::InstanceBvh;
 use super::mesh_bvh::MeshBvh;
 use super::ray::{Ray, RayBatch, every_instance};
-use crate::scene::Mesh;
+use crate::model::Mesh;
 use indexmap::IndexSet;
 use std::sync::Arc;
 

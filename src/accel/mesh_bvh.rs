@@ -6,7 +6,7 @@ use super::hit::Hit;
 use super::instance::PlacedInstance;
 use super::ray::Ray;
 use super::triangle::{Crossing, ShearedRay};
-use crate::scene::Mesh;
+use crate::model::Mesh;
 use glam::{DAffine3, DVec3};
 use std::sync::Arc;
 

@@ -6,7 +6,7 @@
 use super::image::{MOST_PIXELS, MOST_SIDES, SkyImage, make_finite};
 use super::primaries::Primaries;
 use super::{SkyWarning, openexr, radiance};
-use crate::spectrum::color_space::decode;
+use crate::color::spaces::decode;
 use image::codecs::png::PngDecoder;
 use image::{DynamicImage, ImageDecoder, Limits};
 use std::io::{Cursor, Read};
