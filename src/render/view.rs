@@ -142,7 +142,7 @@ impl<'a> View<'a> {
     pub fn tracer(&self) -> Tracer<'_> {
         Tracer {
             scene: self.scene,
-            stage: self.stage,
+            aggregate: self.stage,
             spacetime: self.spacetime(),
             shadows: self.called.shadows,
             bounces: self.bounces,

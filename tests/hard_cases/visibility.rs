@@ -40,11 +40,28 @@ fn in_rest(eye: &Eye<'_>, seen: &[DVec3]) -> Vec<DVec3> {
 }
 
 fn directions(eye: &Eye<'_>, to: usize, from: usize, given: &[DVec3]) -> Vec<DVec3> {
-    let mut out = Vec::new();
-    boost_directions(eye.view().spacetime().link(to, from), given, &mut out);
-    out.iter()
-        .map(|(direction, _)| direction.normalize())
+    boosted(eye.view().spacetime(), to, from, given)
+        .0
+        .iter()
+        .map(|direction| direction.normalize())
         .collect()
+}
+
+/// Boosted directions, and ratios of frequencies.
+fn boosted(
+    spacetime: &Spacetime,
+    to: usize,
+    from: usize,
+    given: &[DVec3],
+) -> (Vec<DVec3>, Vec<f64>) {
+    let (mut directions, mut ratios) = (Vec::new(), Vec::new());
+    boost_directions(
+        spacetime.link(to, from),
+        given,
+        &mut directions,
+        &mut ratios,
+    );
+    (directions, ratios)
 }
 
 /// How many of `millions` of rays miss: half of them evenly over the camera's sky, half over the
@@ -85,12 +102,11 @@ fn leaks(eye: &Eye<'_>) -> usize {
 
 /// What a camera ray meets on one worldline alone: the hit, and its lab time.
 fn alone(eye: &Eye<'_>, spacetime: &Spacetime, worldline: usize, direction: DVec3) -> Option<f64> {
-    let mut boosted = Vec::new();
-    boost_directions(spacetime.link(worldline, 0), &[direction], &mut boosted);
+    let (directions, _) = boosted(spacetime, worldline, 0, &[direction]);
     let event = spacetime.camera_event(worldline);
     let ray = Ray {
         origin: event.x,
-        direction: boosted[0].0,
+        direction: directions[0],
     };
     let hit = eye.stage.intersect_ray(worldline, &ray, f64::INFINITY)?;
     let emission = Event::new(event.t - hit.t, event.x + ray.direction * hit.t);
@@ -336,13 +352,12 @@ fn ties(scene: &Scene) -> usize {
     let spacetime = Spacetime::new(scene, true);
     let stage = build_aggregate(&scene.geometry, None);
     let meets = |worldline: usize, direction: DVec3| {
-        let mut out = Vec::new();
-        boost_directions(spacetime.link(worldline, 0), &[direction], &mut out);
+        let (directions, ratios) = boosted(&spacetime, worldline, 0, &[direction]);
         let ray = Ray {
             origin: spacetime.camera_event(worldline).x,
-            direction: out[0].0,
+            direction: directions[0],
         };
-        Some(stage.intersect_ray(worldline, &ray, f64::INFINITY)?.t / out[0].1)
+        Some(stage.intersect_ray(worldline, &ray, f64::INFINITY)?.t / ratios[0])
     };
     let tied = |i: &i32| {
         let direction = scene
