@@ -1,8 +1,9 @@
-//! Lights: each kind has its keys, one measure of its amount, and a cone that is one.
+//! Lamps (the keys of each kind, one measure of the amount, a spot's cone) and the background (one
+//! kind of sky, files that exist, ascending ranges).
 
-use super::Checks;
 use super::bodies::is_zero;
-use crate::shot::{Light, LightKind, Track};
+use super::checks::Checks;
+use crate::shot::{Light, LightKind, RandomStars, Stars, Track};
 
 /// Outer half-angle of a spot whose author gives none, degrees.
 const DEFAULT_OUTER: f64 = 45.0;
@@ -19,7 +20,7 @@ impl Checks<'_> {
                 && let Some(at) = self.first(direction, direction, |d, _| is_zero(d))
             {
                 let message = format!("the direction is zero at frame {at}");
-                self.say(
+                self.report(
                     &format!("{key}.direction"),
                     message,
                     "any length but zero will do",
@@ -37,14 +38,14 @@ impl Checks<'_> {
         for needed in needed {
             if !self.given(&format!("{key}.{needed}")) {
                 let message = format!("a {name} light needs `{needed}`");
-                self.say(key, message, &format!("add {needed} = [x, y, z]"));
+                self.report(key, message, &format!("add {needed} = [x, y, z]"));
             }
         }
         for foreign in foreign {
             let path = format!("{key}.{foreign}");
             if self.given(&path) {
                 let message = format!("a {name} light has no `{foreign}`");
-                self.say(
+                self.report(
                     &path,
                     message,
                     "leave it out, or choose another kind of light",
@@ -58,11 +59,11 @@ impl Checks<'_> {
         match (self.given(&format!("{key}.intensity")), self.given(&scale)) {
             (true, true) => {
                 let message = "`intensity` and `scale` both give the amount of light".to_owned();
-                self.say(&scale, message, "leave out one of them");
+                self.report(&scale, message, "leave out one of them");
             }
             (false, false) => {
                 let message = "the light needs `intensity` or `scale`".to_owned();
-                self.say(key, message, "add intensity = 1000: cd, or lx for a sun");
+                self.report(key, message, "add intensity = 1000: cd, or lx for a sun");
             }
             _ => {}
         }
@@ -83,7 +84,40 @@ impl Checks<'_> {
             );
             let message =
                 format!("the cone's inner half-angle, {i} degrees, exceeds its outer, {o}");
-            self.say(&format!("{key}.inner"), message, "inner is at most outer");
+            self.report(&format!("{key}.inner"), message, "inner is at most outer");
+        }
+    }
+
+    pub(super) fn sky(&mut self) {
+        let sky = &self.shot.background;
+        self.check_worldline("background.worldline", sky.worldline.as_ref());
+        self.spectrum("background.spectrum", sky.spectrum.as_ref());
+        if self.given("background.spectrum") && self.given("background.image") {
+            let message = "`spectrum` and `image` both say what the sky is".to_owned();
+            self.report("background.image", message, "leave out one of them");
+        }
+        if let Some(file) = &sky.image {
+            self.check_file("background.image", file);
+        }
+        match &sky.stars {
+            Some(Stars::Catalogue(stars)) => self.check_file("background.stars.file", &stars.file),
+            Some(Stars::Random(stars)) => self.random_stars(stars),
+            None => {}
+        }
+    }
+
+    fn random_stars(&mut self, stars: &RandomStars) {
+        let ranges = [
+            ("temperature", stars.temperature),
+            ("magnitude", stars.magnitude),
+        ];
+        for (key, [from, to]) in ranges.into_iter().filter(|(_, [from, to])| from > to) {
+            let message = format!("the range of {key} begins at {from} and ends at {to}, below it");
+            self.report(
+                &format!("background.stars.{key}"),
+                message,
+                "write the smaller first",
+            );
         }
     }
 }

@@ -1,13 +1,14 @@
-//! One node of the JSON schema with its references followed: what it takes and what it asks.
+//! One node of the JSON schema with its references followed: which values it takes, and how a message
+//! describes them.
 
-use super::super::names::nearest;
 use super::super::schema;
+use crate::shot::names::nearest;
 use serde_json::{Map, Value};
 
-/// Most words that a message lists as what was wanted.
+/// Number of allowed words that a message lists at most.
 const MAX_WORDS: usize = 6;
 
-/// The range of a number, as JSON schema has it.
+/// The range of a number: the four bounds of JSON schema.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Bounds {
     minimum: Option<f64>,
@@ -17,7 +18,7 @@ pub(super) struct Bounds {
 }
 
 impl Bounds {
-    /// The bounds at a schema node; those that it does not set are `outer`'s.
+    /// The bounds at a schema node; those that it does not set are those of `outer`.
     fn at(object: &Map<String, Value>, outer: Bounds) -> Bounds {
         let read =
             |key: &str, outer: Option<f64>| object.get(key).and_then(Value::as_f64).or(outer);
@@ -29,7 +30,7 @@ impl Bounds {
         }
     }
 
-    /// The bound that a value breaks, in words.
+    /// The bound that a value violates, in words.
     pub(super) fn broken_by(&self, value: f64) -> Option<String> {
         let words = [
             self.minimum
@@ -49,7 +50,7 @@ impl Bounds {
     }
 }
 
-/// A schema node. Bounds hold for every number in it, as those of a key hold for its ramp.
+/// A schema node. Its bounds hold for every number inside: those of a key hold for its ramp too.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Node<'a> {
     object: Option<&'a Map<String, Value>>,
@@ -95,13 +96,13 @@ impl<'a> Node<'a> {
         self.bounds
     }
 
-    /// The comment of the key, as help for who got it wrong.
+    /// The doc comment of the key, which messages quote as help.
     pub(super) fn help(&self) -> Option<String> {
         self.help
             .map(|help| help.split_whitespace().collect::<Vec<_>>().join(" "))
     }
 
-    /// All forms that it can take, none of them with alternatives of its own.
+    /// All forms that the value can take, each without alternatives of its own.
     pub(super) fn alternatives(&self) -> Vec<Node<'a>> {
         match self.get("anyOf").and_then(Value::as_array) {
             Some(forms) => forms
@@ -126,7 +127,7 @@ impl<'a> Node<'a> {
         }
     }
 
-    /// The words of which it is one; none if it is no choice of words.
+    /// The words to choose from; empty if the node is not a choice of words.
     pub(super) fn words(&self) -> Vec<&'a str> {
         let listed = self
             .get("enum")
@@ -169,7 +170,7 @@ impl<'a> Node<'a> {
             .filter_map(Value::as_str)
     }
 
-    /// The node of a key. A ramp's bounds and help go on to its values; a table's do not.
+    /// The node of a key. Values of a ramp inherit its bounds and help; keys of a table do not.
     pub(super) fn property(&self, key: &str) -> Option<Node<'a>> {
         let schema = self.get("properties")?.get(key)?;
         if self.is_track() {
@@ -179,20 +180,20 @@ impl<'a> Node<'a> {
         }
     }
 
-    /// The node of every entry, if its keys are names of the author's choice.
+    /// The node of the entries of a table whose keys are names of the author's choice.
     pub(super) fn entries(&self) -> Option<Node<'a>> {
         self.get("additionalProperties")
             .filter(|schema| schema.is_object())
             .map(Node::new)
     }
 
-    /// Whether it is one of the moving forms of a value.
+    /// Whether the node is a ramp or keys.
     pub(super) fn is_track(&self) -> bool {
         let mut keys = self.keys();
         keys.clone().any(|key| key == "from") || keys.any(|key| key == "ease")
     }
 
-    /// The node of the item at index `i`. A key's frame is not bounded as its value is.
+    /// The node of the item at index `i`. In a `[frame, value]` pair the bounds hold for the value only.
     pub(super) fn item(&self, i: usize) -> Node<'a> {
         match self.get("items") {
             Some(Value::Array(items)) if i + 1 < items.len() => Node::new(&items[i]),
@@ -208,12 +209,12 @@ impl<'a> Node<'a> {
             .and_then(|length| usize::try_from(length).ok())
     }
 
-    /// Whether it is a list of fixed length, such as a vector.
+    /// Whether the node is a list of bounded length, such as a vector.
     pub(super) fn is_fixed(&self) -> bool {
         self.length("maxItems").is_some()
     }
 
-    /// The length that a list should have instead of `length`, in words.
+    /// The allowed lengths of a list in words; None if `length` is one of them.
     pub(super) fn wrong_length(&self, length: usize) -> Option<String> {
         let (least, most) = (self.length("minItems"), self.length("maxItems"));
         if least.is_none_or(|least| length >= least) && most.is_none_or(|most| length <= most) {
@@ -227,7 +228,7 @@ impl<'a> Node<'a> {
         }
     }
 
-    /// How much a key looks like one of this form's: 2 if it is one, 1 if it is nearly one.
+    /// How well a key fits this form: 2 if it is one of its keys, 1 if it is close to one, else 0.
     pub(super) fn likeness(&self, key: &str) -> u32 {
         match (
             self.property(key),
@@ -240,7 +241,7 @@ impl<'a> Node<'a> {
         }
     }
 
-    /// What it takes, in words.
+    /// The values that the node takes, in words.
     pub(super) fn wanted(&self) -> String {
         let words = self.words();
         let kind = self.get("type").and_then(Value::as_str).unwrap_or_default();
@@ -274,7 +275,7 @@ fn referred(reference: &str) -> &'static Value {
         .unwrap_or(&Value::Null)
 }
 
-/// "a, b or c", without repetition.
+/// A list in words, "a, b or c", without repetitions.
 pub(super) fn list_of(items: impl Iterator<Item = String>) -> String {
     let mut list: Vec<String> = Vec::new();
     for item in items {
@@ -289,7 +290,7 @@ pub(super) fn list_of(items: impl Iterator<Item = String>) -> String {
     }
 }
 
-/// A bound as its author would write it: large and small powers of ten are not spelt out.
+/// A bound as an author would write it, with exponents for large and small numbers.
 fn written(bound: f64) -> String {
     if bound.abs() >= 1e7 || (bound != 0.0 && bound.abs() < 1e-4) {
         format!("{bound:e}")

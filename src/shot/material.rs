@@ -1,13 +1,12 @@
-//! What surfaces look like: materials and spectra. Wavelengths in nanometres, temperatures in
-//! kelvins, spectral radiance in W·m⁻²·sr⁻¹·nm⁻¹ in the rest frame of what emits or reflects.
+//! Materials: how a surface reflects, transmits and emits. Temperatures in kelvins, spectral radiance
+//! in W·m⁻²·sr⁻¹·nm⁻¹ in the rest frame of the surface.
 //!
-//! In every term each key is optional: where the file has a material of this name, given keys
-//! replace and the rest stays; otherwise the defaults hold.
+//! Every key of a term is optional. If the model file has a material of the same name, the given keys
+//! replace those of the file and the rest stays; otherwise the defaults hold.
 
-use super::Track;
+use super::{SpectrumValue, Track};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use std::path::PathBuf;
 
 /// `[material.NAME]`: the terms of a material. A term that is not named is not there.
 #[derive(Debug, Clone, Default, Serialize, Deserialize, JsonSchema)]
@@ -27,7 +26,8 @@ pub struct Material {
     pub thermal: Option<Thermal>,
 }
 
-/// The spectra of a material's terms, with their keys, borrowed one way or the other.
+/// The spectra of a material's terms with their keys, borrowed shared or mutably. Destructuring
+/// without `..` makes a new term a compile error here.
 macro_rules! of_terms {
     ($material:ident, $borrowed:ident, $($by:tt)+) => {{
         let Self {
@@ -52,13 +52,14 @@ macro_rules! of_terms {
 }
 
 impl Material {
-    /// The spectra of its terms, each with its key below the material's; all that there are, or
-    /// a file that one names would not be read.
+    /// The spectra of all terms, each with its key below that of the material, such as
+    /// `diffuse.spectrum`. A spectrum that is missing here would have its file neither read nor
+    /// fingerprinted.
     pub fn spectra(&self) -> impl Iterator<Item = (&'static str, &Option<SpectrumValue>)> {
         of_terms!(self, as_ref, &)
     }
 
-    /// The same, to be changed.
+    /// The same spectra, mutable.
     pub(super) fn spectra_mut(
         &mut self,
     ) -> impl Iterator<Item = (&'static str, &mut Option<SpectrumValue>)> {
@@ -158,70 +159,4 @@ pub enum ThermalCurve {
     Absolute,
     /// Planck's curve scaled so that its peak is `strength`.
     Peak,
-}
-
-/// Wherever a spectrum stands: a name, a number, or a table inline.
-#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
-#[serde(untagged)]
-pub enum SpectrumValue {
-    /// The same at every wavelength.
-    Number(Track<f64>),
-    /// The name of a `[spectrum.NAME]` or of an illuminant.
-    Name(String),
-    /// A spectrum written where it is used.
-    Table(Box<SpectrumTable>),
-}
-
-/// `[spectrum.NAME]` or the same inline: exactly one of the kinds, and what belongs to it.
-#[derive(Debug, Clone, Default, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, default)]
-pub struct SpectrumTable {
-    /// Kind: cardinal cubic spline through (nm, value) points, wavelengths above 0 and strictly ascending, values at least 0.
-    #[schemars(length(min = 2))]
-    pub points: Option<Vec<[f64; 2]>>,
-    /// Tension of the spline through `points`, from 0 (Catmull-Rom) to 1 (flat at every point). Default: 0.
-    #[schemars(range(min = 0, max = 1))]
-    pub tension: Option<f64>,
-    /// Kind: the same value, at least 0, at every wavelength.
-    #[schemars(extend("minimum" = 0))]
-    pub constant: Option<Track<f64>>,
-    /// Kind: Planck's curve at this temperature, K, above 0; 1 at 560 nm or at `unit_at`.
-    #[schemars(extend("exclusiveMinimum" = 0))]
-    pub blackbody: Option<Track<f64>>,
-    /// Wavelength at which `blackbody` is 1, nm, above 0. Default: 560.
-    #[schemars(extend("exclusiveMinimum" = 0))]
-    pub unit_at: Option<f64>,
-    /// Kind: a CIE illuminant by name, such as "D65" or "A"; 1 at 560 nm.
-    pub illuminant: Option<String>,
-    /// Kind: a smooth spectrum of this linear sRGB color, each component from 0 to 1.
-    #[schemars(extend("minimum" = 0, "maximum" = 1))]
-    pub rgb: Option<Track<[f64; 3]>>,
-    /// Kind: a bell { center, width } in nm with peak 1.
-    pub gaussian: Option<Gaussian>,
-    /// Kind: a CSV file of wavelengths (nm, or in the unit that its header names) and values, relative to the shot file.
-    pub file: Option<PathBuf>,
-    /// What lies beyond the first and last wavelength of `points`, `file`, `rgb` or `illuminant`. Default: "hold".
-    pub beyond: Option<Beyond>,
-}
-
-/// A bell over the wavelengths: exp(−(λ − center)²/(2 width²)).
-#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct Gaussian {
-    /// Wavelength of the peak, nm, above 0.
-    #[schemars(extend("exclusiveMinimum" = 0))]
-    pub center: Track<f64>,
-    /// Standard deviation, nm, above 0.
-    #[schemars(extend("exclusiveMinimum" = 0))]
-    pub width: Track<f64>,
-}
-
-/// What a spectrum is beyond its first and last wavelength.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "lowercase")]
-pub enum Beyond {
-    /// The value at the end goes on.
-    Hold,
-    /// Zero.
-    Zero,
 }

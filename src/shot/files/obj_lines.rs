@@ -1,12 +1,12 @@
-//! The lines of OBJ and MTL files, for whoever reads a model and whoever only hashes it.
+//! The lines of OBJ and MTL files: continuation, keywords, comments.
 //!
-//! A line ends in LF, CR LF or CR alone. A byte order mark before a line is skipped: files are put
-//! together from others. A backslash at the end of a line continues it, unless a comment has begun
-//! or the next line begins with a keyword: then it is the last letter of a name.
+//! A backslash at the end of a line continues it, unless a comment has begun or the next line begins
+//! with a keyword: then the backslash is the last letter of a name.
 
+use crate::shot::text::each_line;
 use std::io::{self, BufRead};
 
-/// Keywords of OBJ; a file that begins with something else and has no vertex is none.
+/// Keywords of OBJ. A file that begins with something else and has no vertex is not an OBJ file.
 pub const OBJ_KEYWORDS: [&str; 24] = [
     "v",
     "vt",
@@ -34,28 +34,20 @@ pub const OBJ_KEYWORDS: [&str; 24] = [
     "call",
 ];
 
-/// Keywords that numbers follow, of those that are read; names may follow the others.
+/// Those of the keywords read that are followed by numbers; others may be followed by names.
 const BEFORE_NUMBERS: [&str; 10] = ["v", "vn", "f", "Kd", "Ke", "d", "Tr", "Pm", "Pc", "Ps"];
 
-/// Whether the bytes are text of two bytes a letter, with a byte order mark or without.
-pub fn is_utf16(bytes: &[u8]) -> bool {
-    matches!(
-        bytes,
-        [0xFF, 0xFE, ..] | [0xFE, 0xFF, ..] | [0, 1..=255, ..] | [1..=255, 0, ..]
-    )
-}
-
-/// Keyword and rest of a line.
+/// Keyword and remainder of a line.
 pub fn keyword_and_rest(line: &str) -> (&str, &str) {
     let (keyword, rest) = line.split_once(char::is_whitespace).unwrap_or((line, ""));
     (keyword, rest.trim())
 }
 
-/// What stands between a keyword and a comment.
+/// The part of `rest` before a comment.
 ///
-/// Where numbers are due, `#` begins a comment but in `-1.#IND` and its like. In names it does so
-/// at the front of a word: not in `Red#2`, nor before a digit, `Material #25`, nor where the name
-/// begins with it, `#ff0000`.
+/// Among numbers, `#` begins a comment, except in `-1.#IND` and the like. In names it does so only
+/// at the front of a word: not in `Red#2`, nor before a digit (`Material #25`), nor at the beginning
+/// of the name (`#ff0000`).
 pub fn before_comment<'a>(keyword: &str, rest: &'a str) -> &'a str {
     let are_numbers = BEFORE_NUMBERS.contains(&keyword);
     let begins = |&(at, _): &(usize, &str)| {
@@ -72,36 +64,8 @@ pub fn before_comment<'a>(keyword: &str, rest: &'a str) -> &'a str {
     comment.map_or(rest, |(at, _)| rest[..at].trim_end())
 }
 
-/// Calls `each` with every line, trimmed, and its number from 1.
-///
-/// # Errors
-/// Outside, what the system says; inside, the first error of `each`.
-pub fn each_line<E>(
-    mut reader: impl BufRead,
-    mut each: impl FnMut(usize, &str) -> Result<(), E>,
-) -> io::Result<Result<(), E>> {
-    let mut number = 0;
-    let mut bytes = Vec::new();
-    while reader.read_until(b'\n', &mut bytes)? > 0 {
-        let ends = |b: &u8| matches!(b, b'\n' | b'\r');
-        let length = bytes
-            .iter()
-            .rposition(|b| !ends(b))
-            .map_or(0, |last| last + 1);
-        for line in bytes[..length].split(|b| *b == b'\r') {
-            number += 1;
-            let line = String::from_utf8_lossy(line);
-            if let Err(error) = each(number, line.trim_start_matches('\u{FEFF}').trim()) {
-                return Ok(Err(error));
-            }
-        }
-        bytes.clear();
-    }
-    Ok(Ok(()))
-}
-
-/// [`each_line`] of an OBJ file, those that a backslash continues put together; the number is that
-/// of the last.
+/// Calls `each` with every line of an OBJ file, like [`each_line`]. Lines continued by a backslash are
+/// joined; their number is that of the last.
 ///
 /// # Errors
 /// As [`each_line`].
@@ -118,7 +82,7 @@ pub fn each_obj_line<E>(
         last = number;
         let is_first = begun.is_empty();
         let goes_on = line.ends_with('\\') && {
-            // Of the first part that holds anything.
+            // The keyword is in the first part that is not blank.
             if begun.len() < 2 {
                 keyword.clear();
                 keyword.push_str(keyword_and_rest(line).0.trim_end_matches('\\'));
@@ -144,7 +108,7 @@ pub fn each_obj_line<E>(
     }))
 }
 
-/// A line that ends in a backslash and goes on nowhere: only a name keeps it.
+/// A line whose final backslash continues nothing: only a name keeps the backslash.
 fn uncontinued(line: &str) -> &str {
     let are_numbers = BEFORE_NUMBERS.contains(&keyword_and_rest(line).0);
     line.strip_suffix('\\')

@@ -1,43 +1,44 @@
-//! The JSON text of a glTF file as a tree, for whoever reads a model and whoever only hashes it.
+//! The JSON of a glTF file as a tree.
 //!
-//! What breaks JSON's rules without a doubt about its meaning is mended: bytes of zero after the end,
-//! letters that are not UTF-8, raw line breaks in text, whole numbers written as `1.0`.
+//! Violations of JSON whose meaning is clear are repaired: zero bytes after the end, letters that are
+//! not UTF-8, raw line breaks in strings, whole numbers written as `1.0`.
 
+use crate::shot::text::is_utf16;
 use serde::de::Error;
 use serde_json::Value;
 
-/// Up to here every whole number is a float of its own: 2⁵³.
+/// 2⁵³: up to here every whole number has a float of its own.
 const EXACT: f64 = 9_007_199_254_740_992.0;
 
 /// The JSON of a glTF file.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct GltfJson {
-    /// Its tree; every whole number of 0 or more is an integer.
+    /// The tree; every whole number from 0 to 2⁵³ is an integer.
     pub value: Value,
-    /// What its text had to be mended for.
+    /// Faults of the text that were repaired.
     pub faults: Vec<TextFault>,
 }
 
-/// A fault of a text that can be read all the same.
+/// A fault of the text that does not keep it from being read.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum TextFault {
-    /// Letters of another encoding than UTF-8, each read as U+FFFD.
+    /// Letters in another encoding than UTF-8, each read as U+FFFD.
     NotUtf8 {
-        /// Line of the first, from 1.
+        /// Line number of the first, from 1.
         line: usize,
     },
-    /// Raw control characters within quotes, line breaks for instance, read as blanks.
+    /// Raw control characters, such as line breaks, within strings, read as blanks.
     ControlCharacters,
 }
 
 impl GltfJson {
-    /// Reads the text of a .gltf file or of a glb's JSON chunk.
+    /// Parses the text of a .gltf file or of the JSON chunk of a .glb file.
     ///
     /// # Errors
-    /// What the parser says.
+    /// The error of the JSON parser.
     pub fn parse(text: &[u8]) -> Result<Self, serde_json::Error> {
         let text = text.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(text);
-        if let [0xFF, 0xFE, ..] | [0xFE, 0xFF, ..] | [b'{', 0, ..] | [0, b'{', ..] = text {
+        if is_utf16(text) {
             return Err(Error::custom("it is UTF-16: save it as UTF-8"));
         }
         let end = text.iter().rposition(|&byte| byte != 0);
@@ -47,13 +48,13 @@ impl GltfJson {
                 value,
                 faults: Vec::new(),
             },
-            Err(_) => Self::mended(text)?,
+            Err(_) => Self::repaired(text)?,
         };
         make_whole(&mut json.value);
         Ok(json)
     }
 
-    fn mended(text: &[u8]) -> Result<Self, serde_json::Error> {
+    fn repaired(text: &[u8]) -> Result<Self, serde_json::Error> {
         let mut faults = Vec::new();
         if let Err(error) = std::str::from_utf8(text) {
             let before = &text[..error.valid_up_to()];
@@ -80,8 +81,8 @@ fn lossy(text: &[u8]) -> String {
     String::from_utf8_lossy(text).into_owned()
 }
 
-/// The text without the backslashes that are the second halves of letters in Shift-JIS, Big5 and
-/// GBK: JSON would take them for the beginning of an escape, as in `"表"`, 95 5C.
+/// The text without the backslashes that are second bytes of letters in Shift-JIS, Big5 and GBK, as
+/// in `"表"`, 95 5C. JSON would take them for the beginning of an escape.
 fn without_second_halves(text: &[u8]) -> String {
     let mut legible = String::with_capacity(text.len());
     let mut after_half = false;
@@ -97,6 +98,7 @@ fn without_second_halves(text: &[u8]) -> String {
     legible
 }
 
+/// Turns whole numbers written as floats into integers.
 fn make_whole(value: &mut Value) {
     match value {
         Value::Number(number) => {

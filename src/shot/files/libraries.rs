@@ -1,34 +1,35 @@
-//! The material libraries that an `mtllib` line of an OBJ file names, found as far as may be.
+//! The material libraries that an `mtllib` line of an OBJ file names.
 //!
-//! Names may hold blanks and a line may hold names, bare or in quotes. A name is tried as it is
-//! written, with `/` for `\`, and in the letter case that the disk has. Of an absolute path, which
-//! is that of the author's machine, the file's name is tried beside the model.
+//! Names may contain blanks, and a line may have several names, bare or in quotes. A name is tried as
+//! it is written, with `/` for `\`, and in another letter case. Of an absolute path, which is valid on
+//! the author's machine only, the file name is tried beside the model.
 
-use super::super::names::nearest;
-use super::super::obj_lines::before_comment;
-use super::{FileError, MAX_LIBRARIES, ModelFile, ModelFiles, is_absolute};
+use super::model_files::{FileError, MAX_LIBRARIES, ModelFile, ModelFiles, is_absolute};
+use super::obj_lines::before_comment;
+use crate::shot::names::nearest;
+use crate::shot::near_names::names_in;
 use indexmap::IndexSet;
 use std::path::{Component, Path};
 
 /// A material library.
 #[derive(Debug)]
 pub struct Library {
-    /// As the line has it.
+    /// Its name, as the line has it.
     pub asked: String,
-    /// Of an absolute path, the name that was tried beside the model.
+    /// The name that was tried beside the model, if the line has an absolute path.
     pub beside: Option<String>,
-    /// Its name from the model's folder, and the file; `None` where it is not there.
+    /// Its name from the model's folder, and the file; None if it does not exist.
     pub found: Option<(String, ModelFile)>,
-    /// Of one that is not there, the file that was perhaps meant.
+    /// The file that was perhaps meant, if this one does not exist.
     pub near: Option<String>,
 }
 
 impl ModelFiles {
-    /// Finds the material libraries that an `mtllib` line names: the file that all of it names or,
-    /// where there is none, those of its words.
+    /// Finds the material libraries that an `mtllib` line names: the file named by the whole line or,
+    /// if there is none, those named by its words.
     ///
     /// # Errors
-    /// When the model may not read one, or one is too large, or there are too many.
+    /// If the model may not read one, or one is too large, or there are too many.
     pub fn libraries(&mut self, line: &str) -> Result<Vec<Library>, FileError> {
         let named = before_comment("mtllib", line);
         if named.is_empty() {
@@ -59,7 +60,7 @@ impl ModelFiles {
                 None => self.library(named)?,
             }];
         } else {
-            // Another word that is not there may be a remark.
+            // Another word that names no file may be a remark.
             libraries.retain(|library| {
                 library.found.is_some() || library.asked.to_lowercase().ends_with(".mtl")
             });
@@ -73,7 +74,7 @@ impl ModelFiles {
         Ok(libraries)
     }
 
-    /// Counts names against the most that are looked for.
+    /// Counts names against [`MAX_LIBRARIES`].
     fn count(&mut self, names: usize) -> Result<(), FileError> {
         let left = self.libraries_left.checked_sub(names);
         self.libraries_left = left.ok_or_else(|| FileError::Libraries {
@@ -109,7 +110,7 @@ impl ModelFiles {
         })
     }
 
-    /// None where there is no file of that name.
+    /// The file of that name; None if there is none.
     fn if_there(&mut self, name: &str) -> Result<Option<(String, ModelFile)>, FileError> {
         match self.part(name) {
             Err(FileError::NotAFile { .. }) => Ok(None),
@@ -117,7 +118,7 @@ impl ModelFiles {
         }
     }
 
-    /// The one path that differs from `name` in letter case alone.
+    /// The path that differs from `name` only in letter case, if there is exactly one.
     fn in_other_case(&self, name: &str) -> Option<String> {
         let mut real = String::new();
         for part in Path::new(name).components() {
@@ -139,7 +140,7 @@ impl ModelFiles {
         Some(real)
     }
 
-    /// The library that was perhaps meant by a name: one spelt much like it, or like the model.
+    /// The library that was perhaps meant: one with a similar name, or with the name of the model.
     fn near(&self, name: &str) -> Option<String> {
         let (folder, file) = name.rsplit_once('/').unwrap_or(("", name));
         let wanted = file.rsplit_once('.').map_or(file, |(stem, _)| stem);
@@ -153,17 +154,10 @@ impl ModelFiles {
         })
     }
 
-    /// The names in a folder that may be read, in order.
+    /// The names in a folder that may be read, sorted.
     fn names_in(&self, folder: &str) -> Option<Vec<String>> {
         let folder = self.folder.join(folder).canonicalize().ok()?;
-        if !self.allows(&folder) {
-            return None;
-        }
-        let entries = folder.read_dir().ok()?.flatten();
-        let names = entries.filter_map(|entry| entry.file_name().into_string().ok());
-        let mut names: Vec<_> = names.collect();
-        names.sort();
-        Some(names)
+        self.allows(&folder).then(|| names_in(&folder))?
     }
 }
 
@@ -172,7 +166,7 @@ fn join(folder: &str, name: &str) -> String {
     format!("{folder}{slash}{name}")
 }
 
-/// The name of a library without its extension; `None` of other files.
+/// The name of a library without its extension; None for other files.
 fn stem(name: &str) -> Option<&str> {
     let (stem, extension) = name.rsplit_once('.')?;
     extension.eq_ignore_ascii_case("mtl").then_some(stem)
@@ -186,7 +180,7 @@ fn unquoted(name: &str) -> &str {
     inside('"').or_else(|| inside('\'')).unwrap_or(name)
 }
 
-/// The names on a line: what stands in quotes, and the words outside.
+/// The names on a line: quoted parts, and the words outside quotes.
 fn words(line: &str) -> Vec<&str> {
     let parts = line.split('"').enumerate();
     let names = parts.flat_map(|(i, part)| match i % 2 {

@@ -1,21 +1,21 @@
-//! Mistakes of a shot's author and where they stand in the file.
+//! Mistakes in a shot, and their places in the file.
 //!
 //! A key path is written as `model[0].file`, `material.red.diffuse.weight` or
-//! `worldline.rows.velocity.keys[2][1]`; names of the author's choice stand in it unquoted.
+//! `worldline.rows.velocity.keys[2][1]`; names of the author's choice are not quoted in it.
 
 use std::collections::HashMap;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-/// The text of a shot file and where it came from.
+/// The text of a shot file, and its path.
 #[derive(Debug, Default)]
 pub(super) struct Source {
     pub(super) path: PathBuf,
     pub(super) text: String,
 }
 
-/// Where in a shot file each key's value stands.
+/// The place in the shot file of the value of each key.
 #[derive(Debug, Clone, Default)]
 pub struct Places {
     source: Arc<Source>,
@@ -48,7 +48,7 @@ impl Places {
         self.spans.contains_key(key)
     }
 
-    /// A mistake at a key's value or, where the author left the key out, at what holds it.
+    /// A mistake at the value of a key or, if the author left the key out, at the table around it.
     pub fn mistake(
         &self,
         key: &str,
@@ -64,7 +64,7 @@ impl Places {
         }
     }
 
-    /// The bytes of a key's value or of the nearest thing around it.
+    /// The bytes of the value of a key, or of the innermost table or list around it that is written.
     fn span(&self, key: &str) -> Option<Range<usize>> {
         let mut rest = key;
         loop {
@@ -76,23 +76,23 @@ impl Places {
     }
 }
 
-/// One mistake: what is wrong, where, and what would be right.
+/// One mistake: its place, what is wrong, and a remedy.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Mistake {
-    /// Path of the key, empty if it is no key's.
+    /// Path of the key; empty if the mistake belongs to no key.
     pub key: String,
     /// The bytes of the file that are marked, if any.
     pub span: Option<Range<usize>>,
     /// What is wrong.
     pub message: String,
-    /// A few words under the marked bytes, if any.
+    /// A few words under the marked bytes; may be empty.
     pub label: String,
-    /// What would be right.
+    /// Remedy.
     pub help: Option<String>,
 }
 
 impl Mistake {
-    /// The same with a few words under the marked bytes.
+    /// The mistake with a few words under the marked bytes.
     #[must_use]
     pub fn with_label(mut self, label: impl Into<String>) -> Self {
         self.label = label.into();
@@ -100,7 +100,8 @@ impl Mistake {
     }
 }
 
-/// All mistakes of one shot file, in the order in which they stand there.
+/// All mistakes of one shot file, in the order of their places. `Display` is [`Mistakes::report`]
+/// without colors.
 #[derive(Debug, Clone)]
 pub struct Mistakes {
     source: Arc<Source>,
@@ -108,7 +109,7 @@ pub struct Mistakes {
 }
 
 impl Mistakes {
-    /// The mistakes `list` of the shot that `places` belongs to.
+    /// Mistakes of the shot that `places` belongs to, in any order.
     pub fn new(places: &Places, mut list: Vec<Mistake>) -> Self {
         list.sort_by_key(|mistake| mistake.span.as_ref().map_or(0, |span| span.start));
         Mistakes {
@@ -117,28 +118,28 @@ impl Mistakes {
         }
     }
 
-    /// The one mistake of a file that could not be read as text.
+    /// The single mistake of a file that could not be read as text.
     pub(super) fn unreadable(path: &Path, message: String, help: Option<String>) -> Self {
         let places = Places::new(path, "", HashMap::new);
         Mistakes::new(&places, vec![places.mistake("", message, help)])
     }
 
-    /// The mistakes one by one.
+    /// The mistakes in order.
     pub fn iter(&self) -> impl Iterator<Item = &Mistake> {
         self.list.iter()
     }
 
-    /// How many there are.
+    /// Number of mistakes.
     pub fn len(&self) -> usize {
         self.list.len()
     }
 
-    /// Whether there are none.
+    /// Whether there is no mistake.
     pub fn is_empty(&self) -> bool {
         self.list.is_empty()
     }
 
-    /// The shot file.
+    /// Path of the shot file.
     pub fn path(&self) -> &Path {
         &self.source.path
     }

@@ -1,4 +1,5 @@
-//! Mistakes as a compiler shows them: file, line, the span marked, what would be right.
+//! Reports of mistakes: for people as a compiler shows them (file, line, marked span, remedy), and for
+//! programs as JSON.
 
 use super::mistake::{Mistake, Mistakes};
 use miette::{GraphicalReportHandler, GraphicalTheme, LabeledSpan, NamedSource, SourceCode};
@@ -6,15 +7,15 @@ use serde_json::{Value, json};
 use std::fmt;
 use std::ops::Range;
 
-/// Most mistakes that a report shows; the rest is counted.
+/// Number of mistakes that a report shows; the rest is counted.
 const MAX_SHOWN: usize = 100;
-/// Longest line that is shown, in bytes; of a longer one only the place is named.
+/// Length of the longest line that is shown, in bytes; of a longer one only the place is named.
 const MAX_LINE: usize = 240;
-/// Columns of a report.
+/// Width of a report, in columns.
 const WIDTH: usize = 100;
 
 impl Mistakes {
-    /// All mistakes for people to read, with terminal colors if `color`.
+    /// The mistakes as text for people, with terminal colors if `color`.
     pub fn report(&self, color: bool) -> String {
         let name = self.path().display().to_string();
         let source = NamedSource::new(name, printable(self.text()));
@@ -29,8 +30,8 @@ impl Mistakes {
         report
     }
 
-    /// All mistakes for programs: a list of objects with file, line and column (from 1, or null
-    /// where no place is known), key, message and help.
+    /// The mistakes as JSON for programs: a list of objects with file, line and column (from 1; null
+    /// if no place is known), key, message and help.
     pub fn json(&self) -> Value {
         let lines = Lines::new(self.text());
         let file = self.path().display().to_string();
@@ -90,7 +91,7 @@ fn rendered(
     }
 }
 
-/// One mistake as miette wants it.
+/// One mistake in the form that miette prints.
 #[derive(Debug)]
 struct Diagnostic<'a> {
     message: String,
@@ -127,7 +128,7 @@ impl miette::Diagnostic for Diagnostic<'_> {
     }
 }
 
-/// The text as a terminal may have it, byte for byte in the same places.
+/// The text with control characters replaced, so that it is safe on a terminal. Byte positions stay.
 fn printable(text: &str) -> String {
     let mut safe = String::with_capacity(text.len());
     for c in text.chars() {
@@ -140,7 +141,7 @@ fn printable(text: &str) -> String {
     safe
 }
 
-/// Where the lines of a text begin.
+/// The positions at which the lines of a text begin.
 struct Lines<'a> {
     text: &'a str,
     starts: Vec<usize>,
@@ -155,7 +156,7 @@ impl<'a> Lines<'a> {
         Lines { text, starts }
     }
 
-    /// The index of the line in which a byte stands.
+    /// The index of the line that contains a byte.
     fn line(&self, byte: usize) -> usize {
         self.starts
             .partition_point(|start| *start <= byte)
@@ -187,7 +188,8 @@ impl<'a> Lines<'a> {
         )
     }
 
-    /// How many lines to show around that of a byte: none if they are long; `None` if it is itself.
+    /// Number of lines to show around that of a byte: 0 if the neighbors are too long; None if the line
+    /// itself is.
     fn context(&self, byte: usize) -> Option<usize> {
         let line = self.line(byte);
         let fits = |line: usize| self.range(line).len() <= MAX_LINE;
@@ -195,7 +197,7 @@ impl<'a> Lines<'a> {
         fits(line).then_some(usize::from(around))
     }
 
-    /// The part of a span that lies in its first line.
+    /// The part of a span in its first line.
     fn first_line_of(&self, span: &Range<usize>) -> Range<usize> {
         let line = self.range(self.line(span.start));
         let start = span.start.min(self.text.len());
@@ -205,7 +207,7 @@ impl<'a> Lines<'a> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::parse;
+    use crate::shot::parse;
     use std::path::Path;
 
     #[test]

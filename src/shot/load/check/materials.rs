@@ -1,6 +1,6 @@
 //! Materials: reflectance and emissivity within [0, 1], thermal keys that belong together.
 
-use super::Checks;
+use super::checks::Checks;
 use crate::shot::{Material, SpectrumValue, Thermal, ThermalCurve, Track};
 
 /// A term that reflects, transmits or emits a share of something: its name, weight, spectrum.
@@ -61,7 +61,7 @@ impl Checks<'_> {
         };
         let message = format!("`{material}.{term}` has an {what} above 1: {product}");
         let message = message.replace("an reflectance", "a reflectance");
-        self.say(
+        self.report(
             &at,
             message,
             "nothing gives back more light than it gets: stay within 0 and 1",
@@ -74,7 +74,7 @@ impl Checks<'_> {
         let absolute = thermal.curve == Some(ThermalCurve::Absolute) || !self.given(&curve);
         if self.given(&strength) && absolute {
             let message = "`strength` has no meaning where the curve is absolute".to_owned();
-            self.say(
+            self.report(
                 &strength,
                 message,
                 "write curve = \"peak\" beside it, or leave it out",

@@ -1,12 +1,12 @@
-//! Worldlines and models: speeds below 1, directions, arrays, files.
+//! Worldlines and models: speeds below c, directions, arrays, files.
 
-use super::Checks;
+use super::checks::Checks;
 use crate::shot::names::short;
 use crate::shot::{Model, Scale, Track, Velocity, Worldline};
 use std::collections::HashSet;
 use std::path::Path;
 
-/// Most instances that one array may have.
+/// Largest number of instances in one array.
 pub const MAX_INSTANCES: u128 = 10_000_000;
 
 const DIRECTION_HELP: &str = "only what is at rest needs no direction; its length does not matter";
@@ -17,7 +17,7 @@ impl Checks<'_> {
             let key = format!("worldline.{own}");
             if self.given(&key) {
                 let message = format!("the worldline {own:?} exists already and cannot be defined");
-                self.say(&key, message, "give this one another name");
+                self.report(&key, message, "give this one another name");
             }
         }
         for (name, worldline) in &self.shot.worldline {
@@ -41,12 +41,13 @@ impl Checks<'_> {
                     "a speed of {speed} c: nothing moves at the speed of light or above it"
                 );
                 let help = "velocities are in units of c, below 1; very near to 1 write { gamma, direction }";
-                self.say(&format!("{key}{end}"), message, help);
+                self.report(&format!("{key}{end}"), message, help);
             }
         }
     }
 
-    /// A direction may vanish only where the speed, measured by `measure`, is that of `rest`.
+    /// Reports a direction of zero, unless the speed is zero too: `measure` (a Lorentz factor or a
+    /// rapidity) then has the value `rest`.
     fn direction(
         &mut self,
         key: &str,
@@ -57,7 +58,7 @@ impl Checks<'_> {
         let wrong = |measure: f64, direction: [f64; 3]| measure != rest && is_zero(direction);
         if let Some(instant) = self.first(measure, direction, wrong) {
             let message = format!("the direction is zero at frame {instant}, where it moves");
-            self.say(&format!("{key}.direction"), message, DIRECTION_HELP);
+            self.report(&format!("{key}.direction"), message, DIRECTION_HELP);
         }
     }
 
@@ -68,7 +69,7 @@ impl Checks<'_> {
                 && !names.insert(name)
             {
                 let message = format!("a second model is named {:?}", short(name));
-                self.say(
+                self.report(
                     &format!("{key}.name"),
                     message,
                     "give each model a name of its own",
@@ -105,13 +106,13 @@ impl Checks<'_> {
             if instances > MAX_INSTANCES {
                 let message = format!("an array of {instances} instances");
                 let help = format!("an array may have {MAX_INSTANCES} at most");
-                self.say(&format!("{key}.array.count"), message, &help);
+                self.report(&format!("{key}.array.count"), message, &help);
             }
         }
     }
 
     fn model_file(&mut self, key: &str, model: &Model) {
-        // Blanks at the end of a name are told as such.
+        // Blanks at the end of a name get a message of their own, from `check_file`.
         let file = model.file.to_string_lossy();
         let extension = Path::new(file.trim())
             .extension()
@@ -121,7 +122,7 @@ impl Checks<'_> {
         } else {
             let file = short(&model.file.display().to_string());
             let message = format!("{file:?} is not a kind of model file that is read");
-            self.say(key, message, "models are .obj, .gltf or .glb files");
+            self.report(key, message, "models are .obj, .gltf or .glb files");
         }
     }
 
@@ -141,7 +142,7 @@ impl Checks<'_> {
         };
         for end in ends {
             let message = "a scale of 0 leaves nothing of the model".to_owned();
-            self.say(
+            self.report(
                 &format!("{key}{end}"),
                 message,
                 "leave the model out, or scale by a small number",

@@ -1,6 +1,6 @@
-//! A TOML value as the walk sees it: its type by JSON's name, its number, its look in a message.
+//! A TOML value: its type by JSON's name, its number, how a message shows it.
 
-use super::super::names::short;
+use crate::shot::names::short;
 use toml::de::DeValue;
 
 /// JSON's name for the type.
@@ -16,8 +16,8 @@ pub(super) fn kind_of(value: &DeValue<'_>) -> &'static str {
     }
 }
 
-/// The number that a value is, infinite if it is too large for f64.
-pub(in super::super) fn as_number(value: &DeValue<'_>) -> Option<f64> {
+/// The value as a number, infinite if too large for f64; None if it is not a number.
+pub(super) fn as_number(value: &DeValue<'_>) -> Option<f64> {
     match value {
         DeValue::Integer(integer) if integer.radix() == 10 => integer.as_str().parse().ok(),
         DeValue::Integer(integer) => Some(
@@ -29,15 +29,15 @@ pub(in super::super) fn as_number(value: &DeValue<'_>) -> Option<f64> {
     }
 }
 
-/// The text that a value is.
-pub(in super::super) fn as_text<'a>(value: &'a DeValue<'_>) -> Option<&'a str> {
+/// The value as text; None if it is not text.
+pub(super) fn as_text<'a>(value: &'a DeValue<'_>) -> Option<&'a str> {
     match value {
         DeValue::String(text) => Some(text),
         _ => None,
     }
 }
 
-/// The value as a message names it.
+/// The value as a message shows it.
 pub(super) fn shown(value: &DeValue<'_>) -> String {
     match value {
         DeValue::String(text) => format!("the string {:?}", short(text)),
@@ -50,7 +50,7 @@ pub(super) fn shown(value: &DeValue<'_>) -> String {
     }
 }
 
-/// Whether it was written, or could have been, with `[[double brackets]]`.
+/// Whether the value was or could have been written with `[[double brackets]]`.
 pub(super) fn is_array_of_tables(value: &DeValue<'_>) -> bool {
     value
         .as_array()

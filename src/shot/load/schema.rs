@@ -1,7 +1,7 @@
-//! The JSON schema of the shot format (draft-07), made from the author's types: one truth for
-//! editors, for `restframe schema` and for the walk that finds a file's mistakes.
+//! The JSON schema of the shot format (draft-07), generated from the author's types. Editors,
+//! `restframe schema` and the walk that finds mistakes all use this one.
 
-use super::Shot;
+use crate::shot::Shot;
 use schemars::generate::SchemaSettings;
 use serde_json::{Map, Value};
 use std::sync::LazyLock;
@@ -20,11 +20,12 @@ pub fn schema() -> Value {
     SCHEMA.clone()
 }
 
+/// The schema without a copy.
 pub(super) fn shared() -> &'static Value {
     &SCHEMA
 }
 
-/// Takes JSON's null out of a schema: TOML has none, an optional key is left out.
+/// Removes null from a schema: TOML has none, and an optional key is left out instead.
 fn drop_null(schema: &mut Value) {
     match schema {
         Value::Array(items) => items.iter_mut().for_each(drop_null),

@@ -1,95 +1,39 @@
-//! The walk of a file's spanned tree against the JSON schema: every unknown key, wrong type,
-//! wrong word and number out of range, in one pass.
+//! The walk itself: values against their schema nodes.
 //!
-//! In: the tree, the schema. Out: mistakes, and the tree as JSON without what is mistaken, so
-//! that the checks that follow see the rest. Alternatives (a number, or `{ from, to }`, or …)
-//! are chosen by the shape of what the author wrote. The schema is finite, and so is the
-//! walk's depth whatever the file holds.
+//! Where a value can take several forms (a number, or `{ from, to }`, or …), the form is chosen by
+//! what the author wrote. The schema is finite, and so is the depth of the walk, whatever the file
+//! holds.
 
-mod keys;
-mod node;
-mod spans;
-mod value;
-
-use super::mistake::{Mistake, Places};
-use super::names::{did_you_mean, nearest, short};
-use super::{later, schema};
-use keys::last_frame;
-use node::{Node, list_of};
+use super::super::{schema, unsupported};
+use super::key_path::{At, join};
+use super::keys::{last_frame, mistaken_keys};
+use super::node::{Node, list_of};
+use super::value::{as_number, as_text, is_array_of_tables, kind_of, shown};
+use crate::shot::names::{did_you_mean, nearest, short};
+use crate::shot::{Mistake, Places};
 use serde_json::{Map, Value};
 use std::borrow::Cow;
 use std::collections::HashMap;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
-use value::{as_number, is_array_of_tables, kind_of, shown};
 
-pub(super) use spans::spans;
-pub(super) use value::as_text as text;
+/// Label of the table in which a required key is missing.
+pub(in super::super) const MISSING: &str = "missing here";
 
-/// What marks the holder of a key that is not there.
-pub(super) const MISSING: &str = "missing here";
-
-/// A place in the tree: its key path, and that path with `*` for names and `[]` for indices.
-#[derive(Clone, Default)]
-struct At {
-    path: String,
-    pattern: String,
-}
-
-impl At {
-    fn key(&self, key: &str) -> At {
-        At {
-            path: join(&self.path, key),
-            pattern: join(&self.pattern, key),
-        }
-    }
-
-    fn name(&self, name: &str) -> At {
-        At {
-            path: join(&self.path, name),
-            pattern: join(&self.pattern, "*"),
-        }
-    }
-
-    fn index(&self, i: usize) -> At {
-        At {
-            path: format!("{}[{i}]", self.path),
-            pattern: format!("{}[]", self.pattern),
-        }
-    }
-
-    /// What holds the key, as a message names it.
-    fn holder(&self) -> String {
-        if self.path.is_empty() {
-            "a shot".into()
-        } else {
-            format!("`{}`", short(&self.path))
-        }
-    }
-}
-
-fn join(path: &str, key: &str) -> String {
-    if path.is_empty() {
-        key.to_owned()
-    } else {
-        format!("{path}.{key}")
-    }
-}
-
-/// What the walk has found out about a file.
-pub(super) struct Walk<'a> {
+/// Result of the walk: mistakes, and what the checks need to know of the file.
+pub(in super::super) struct Walk<'a> {
     places: &'a Places,
     last_frame: Option<f64>,
-    pub(super) mistakes: Vec<Mistake>,
-    /// The author's names in each table of names, also of entries that are mistaken.
-    pub(super) names: HashMap<String, Vec<String>>,
-    /// For each list that lost entries: the indices of those that are left.
-    pub(super) kept: HashMap<String, Vec<usize>>,
+    pub(in super::super) mistakes: Vec<Mistake>,
+    /// The author's names in each table of names, also those of mistaken entries.
+    pub(in super::super) names: HashMap<String, Vec<String>>,
+    /// For each list that lost mistaken entries, the indices of those that are left.
+    pub(in super::super) kept: HashMap<String, Vec<usize>>,
 }
 
 impl<'a> Walk<'a> {
-    /// Walks a whole shot; the value lacks what is mistaken but deserialises nevertheless.
-    pub(super) fn shot(tree: &DeTable<'_>, places: &'a Places) -> (Value, Self) {
+    /// Walks a whole shot. The value lacks what is mistaken, but can be deserialized.
+    pub(in super::super) fn shot(tree: &DeTable<'_>, places: &'a Places) -> (Value, Self) {
         let mut walk = Walk {
             places,
             last_frame: last_frame(tree),
@@ -105,15 +49,17 @@ impl<'a> Walk<'a> {
         (Value::Object(shot), walk)
     }
 
-    fn say(&mut self, at: &At, message: String, help: Option<String>) {
+    fn report(&mut self, at: &At, message: String, help: Option<String>) {
         self.mistakes
             .push(self.places.mistake(&at.path, message, help));
     }
 
-    /// A value against its schema: as JSON, or `None` if it is mistaken.
+    /// Checks a value against its schema. Returns it as JSON, or None if it is mistaken.
     fn value(&mut self, item: &Spanned<DeValue<'_>>, node: &Node<'_>, at: &At) -> Option<Value> {
-        if let Some((message, help)) = later::refusal(&at.pattern, &at.path, item.get_ref()) {
-            self.say(at, message, Some(help));
+        if let Some((message, help)) =
+            unsupported::refusal(&at.pattern, &at.path, as_text(item.get_ref()))
+        {
+            self.report(at, message, Some(help));
             return None;
         }
         let forms = node.alternatives();
@@ -149,10 +95,11 @@ impl<'a> Walk<'a> {
             )),
             _ => forms.first().and_then(Node::help),
         };
-        self.say(at, message, help);
+        self.report(at, message, help);
     }
 
-    /// Several forms of the same type: the one that shares most keys and is least mistaken.
+    /// Chooses among several forms of the same type the one that shares most keys with the value and,
+    /// among these, the one with the fewest mistakes.
     fn best_form(
         &mut self,
         item: &Spanned<DeValue<'_>>,
@@ -170,7 +117,7 @@ impl<'a> Walk<'a> {
                 "`{}` must be {wanted}: this table is none of them",
                 short(&at.path)
             );
-            self.say(at, message, forms.first().and_then(|form| form.help()));
+            self.report(at, message, forms.first().and_then(|form| form.help()));
             return None;
         }
         let earlier = std::mem::take(&mut self.mistakes);
@@ -209,7 +156,7 @@ impl<'a> Walk<'a> {
         }
         let message = format!("`{}` cannot be {:?}", short(&at.path), short(text));
         let help = did_you_mean(text, words.into_iter(), "one of");
-        self.say(at, message, help);
+        self.report(at, message, help);
         None
     }
 
@@ -221,12 +168,12 @@ impl<'a> Walk<'a> {
                 short(&at.path),
                 shown(item)
             );
-            self.say(at, message, form.help());
+            self.report(at, message, form.help());
             return None;
         }
         if let Some(bound) = form.bounds().broken_by(value) {
             let message = format!("`{}` must be {bound}, not {}", short(&at.path), shown(item));
-            self.say(at, message, form.help());
+            self.report(at, message, form.help());
             return None;
         }
         // Whole numbers are bounded to 32 bits, which f64 holds exactly.
@@ -244,7 +191,7 @@ impl<'a> Walk<'a> {
                 short(&at.path),
                 items.len()
             );
-            self.say(at, message, form.help());
+            self.report(at, message, form.help());
             return None;
         }
         let values: Vec<Option<Value>> = items
@@ -268,7 +215,7 @@ impl<'a> Walk<'a> {
         Some(Value::Array(values))
     }
 
-    /// A table as JSON without what is mistaken, and whether it has all that it must have.
+    /// A table as JSON without mistaken values, and whether it has all required keys.
     fn table(
         &mut self,
         table: &DeTable<'_>,
@@ -296,7 +243,10 @@ impl<'a> Walk<'a> {
             self.names.insert(at.path.clone(), names);
         }
         if form.is_track() {
-            self.check_keys(table, at);
+            for mistaken in mistaken_keys(table, self.last_frame) {
+                let here = at.key("keys").index(mistaken.index).index(0);
+                self.report(&here, mistaken.message, Some(mistaken.help.to_owned()));
+            }
         }
         for key in form
             .required()
@@ -327,7 +277,7 @@ impl<'a> Walk<'a> {
         });
     }
 
-    /// Says that a key is unknown; the key that was perhaps meant.
+    /// Reports an unknown key. Returns the key that was perhaps meant.
     fn unknown<'n>(
         &mut self,
         key: &Spanned<Cow<'_, str>>,
@@ -337,7 +287,7 @@ impl<'a> Walk<'a> {
     ) -> Option<&'n str> {
         let name = key.get_ref().as_ref();
         let below = at.key(name);
-        let mut mistake = match later::refusal(&below.pattern, &below.path, item) {
+        let mut mistake = match unsupported::refusal(&below.pattern, &below.path, as_text(item)) {
             Some((message, help)) => self.places.mistake(&below.path, message, help),
             None => self.places.mistake(
                 &below.path,

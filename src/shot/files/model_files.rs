@@ -1,39 +1,34 @@
-//! The files that a model may read: its own, and those it names within the folders allowed. Whoever
-//! reads a model, and whoever only hashes it, does so here.
+//! Access to the files of one model: its own, and those that it names within the allowed folders.
 
-mod libraries;
-
-use super::names::short;
-use super::nearby::nearby;
+use crate::shot::names::short;
+use crate::shot::near_names::nearest_file;
 use indexmap::IndexSet;
 use std::fs::{self, File};
 use std::io::{BufReader, ErrorKind, Read};
 use std::path::{Component, Path, PathBuf};
 
-pub use libraries::Library;
+/// Number of material libraries that one OBJ file may name.
+pub(super) const MAX_LIBRARIES: usize = 1000;
 
-/// Material libraries that an OBJ file may name.
-const MAX_LIBRARIES: usize = 1000;
-
-/// Bytes read for one model at most, files that it names included: 2 GiB.
+/// Number of bytes read for one model at most, with the files that it names: 2 GiB.
 pub const MODEL_BYTES: u64 = 2 << 30;
 
-/// Access to the disk on behalf of one model.
+/// Access to the disk on behalf of one model: folders allowed, and what is left of its limits.
 #[derive(Debug, Clone)]
 pub struct ModelFiles {
-    /// The model file, as it was called.
+    /// The model file, as the shot names it.
     pub model: PathBuf,
-    folder: PathBuf,
+    pub(super) folder: PathBuf,
     may_read: Vec<PathBuf>,
     bytes_left: u64,
-    libraries_left: usize,
+    pub(super) libraries_left: usize,
 }
 
-/// Why a file of a model cannot be read.
+/// Reason why a file of a model cannot be read.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum FileError {
-    /// The file is not there.
+    /// The model file does not exist.
     #[error("model file `{}` does not exist: check the path, which is relative to the shot", file.display())]
     Missing {
         /// The model file.
@@ -44,16 +39,16 @@ pub enum FileError {
     Read {
         /// The model file.
         file: PathBuf,
-        /// What the system said.
+        /// The error of the system.
         source: std::io::Error,
     },
-    /// A folder, pipe or device stands where a file should.
+    /// A folder, pipe or device instead of a file.
     #[error("`{}` is not a regular file: expected a model in OBJ, glTF or glb form", file.display())]
     NotAFile {
         /// The model file, or one that it names.
         file: PathBuf,
     },
-    /// More bytes than are read.
+    /// The model and the files that it names exceed [`MODEL_BYTES`].
     #[error("model `{}` and the files it names come to {bytes} bytes, more than the {limit} that are read: split or decimate it", file.display())]
     TooLarge {
         /// The model file.
@@ -63,58 +58,59 @@ pub enum FileError {
         /// Size allowed.
         limit: u64,
     },
-    /// A file name that leads out of the folders that may be read.
+    /// A file name that leads out of the allowed folders.
     #[error("model `{}` names the file `{uri}`, outside the folders it may read, its own and the shot's: put that file beside the model or the shot", file.display())]
     Outside {
         /// The model file.
         file: PathBuf,
-        /// As the model has it.
+        /// The name, as the model writes it.
         uri: String,
     },
-    /// A file name that is absolute, remote or not decodable.
+    /// A file name that is absolute or remote.
     #[error("model `{}` names the file `{uri}`, which is {problem}: expected a name relative to the model; put that file beside it", file.display())]
     Uri {
         /// The model file.
         file: PathBuf,
-        /// As the model has it, cut short.
+        /// The name, as the model writes it, shortened.
         uri: String,
         /// What is wrong with it.
         problem: &'static str,
     },
-    /// A file that the model names is not there.
+    /// A file that the model names does not exist.
     #[error("model `{}` names the file `{uri}`, which does not exist: {}copy it along with the model, or export as one .glb", file.display(), did_you_mean(meant))]
     MissingPart {
         /// The model file.
         file: PathBuf,
-        /// As the model has it.
+        /// The name, as the model writes it.
         uri: String,
-        /// A file of nearly that name.
+        /// An existing file with nearly that name.
         meant: Option<String>,
     },
-    /// More material libraries than are looked for.
+    /// More material libraries than are read.
     #[error("model `{}` names more material libraries than the {limit} that are read: put its materials into one .mtl file", file.display())]
     Libraries {
         /// The model file.
         file: PathBuf,
-        /// How many are allowed.
+        /// Number allowed.
         limit: usize,
     },
 }
 
-/// A file of a model that may be read; it is opened when it is, so that any number may wait.
+/// A file of a model that may be read. It is opened only while it is read, so that any number of them
+/// can wait.
 #[derive(Debug)]
 pub struct ModelFile {
-    /// Where it is, links followed.
+    /// Its path, with links resolved.
     pub path: PathBuf,
     length: u64,
     called: PathBuf,
 }
 
 impl ModelFile {
-    /// All of its bytes.
+    /// Reads all bytes.
     ///
     /// # Errors
-    /// What the system says.
+    /// The error of the system.
     pub fn bytes(self) -> Result<Vec<u8>, FileError> {
         self.read(|file| {
             let mut bytes = Vec::new();
@@ -122,10 +118,10 @@ impl ModelFile {
         })
     }
 
-    /// What `work` makes of its bytes.
+    /// Opens the file and returns what `work` makes of its bytes.
     ///
     /// # Errors
-    /// What the system says.
+    /// The error of the system.
     pub fn read<T>(
         self,
         work: impl FnOnce(&mut BufReader<std::io::Take<File>>) -> std::io::Result<T>,
@@ -144,10 +140,10 @@ impl ModelFile {
 }
 
 impl ModelFiles {
-    /// Finds the model file itself.
+    /// Finds the model file itself. `may_read` are folders allowed beside the model's own.
     ///
     /// # Errors
-    /// When it is not there, no file, or too large.
+    /// If it does not exist, is not a file, or is too large.
     pub fn open(path: &Path, may_read: &[&Path]) -> Result<(Self, ModelFile), FileError> {
         let canonical = path.canonicalize().map_err(|source| match source.kind() {
             ErrorKind::NotFound => FileError::Missing {
@@ -160,7 +156,7 @@ impl ModelFiles {
         })?;
         let folder = canonical.parent().unwrap_or(Path::new("/")).to_owned();
         let mut allowed = vec![folder.clone()];
-        // The folder of a path without one is the one that we are in.
+        // A path without a folder is in the current folder.
         let named = |folder: &Path| match folder.components().next() {
             None => Path::new(".").canonicalize(),
             Some(_) => folder.canonicalize(),
@@ -178,8 +174,8 @@ impl ModelFiles {
         Ok((files, file))
     }
 
-    /// Finds a file that the model names, relative to the model's folder; None where it is not there.
-    fn part(&mut self, name: &str) -> Result<Option<ModelFile>, FileError> {
+    /// Finds a file that the model names, relative to the model's folder; None if it does not exist.
+    pub(super) fn part(&mut self, name: &str) -> Result<Option<ModelFile>, FileError> {
         if is_absolute(name) {
             return Err(self.bad_uri(name, "absolute or remote"));
         }
@@ -187,7 +183,7 @@ impl ModelFiles {
             file: self.model.clone(),
             uri: short(name),
         };
-        // By the letters first, so that the message does not tell what exists elsewhere.
+        // By the letters first, so that the message does not reveal what exists elsewhere.
         if !self.allows(&lexical(&self.folder.join(name))) {
             return Err(outside());
         }
@@ -200,11 +196,11 @@ impl ModelFiles {
         self.counted(&canonical, Path::new(name)).map(Some)
     }
 
-    /// Finds a file that a glTF file names by a URI: percent-encoded or, as not all exporters have
-    /// it, as the file is called, with `/` or `\\` between folders. None where it is not there.
+    /// Finds a file that a glTF file names by a URI, percent-encoded or, as some exporters write it,
+    /// plain, with `/` or `\\` between folders. None if it does not exist.
     ///
     /// # Errors
-    /// When the model may not read it, or it is no file, or too large.
+    /// If the model may not read it, or it is not a file, or too large.
     pub fn part_by_uri(&mut self, uri: &str) -> Result<Option<ModelFile>, FileError> {
         let names = [decoded(uri), uri.to_owned()];
         let slashed = names.clone().map(|name| name.replace('\\', "/"));
@@ -216,14 +212,22 @@ impl ModelFiles {
         Ok(None)
     }
 
-    /// The error for a URI that leads to no file, with the one that was perhaps meant.
+    /// The error for a URI that leads to no file, with the file that was perhaps meant.
     pub fn missing(&self, uri: &str) -> FileError {
         let name = decoded(uri);
         FileError::MissingPart {
             file: self.model.clone(),
             uri: short(&name),
-            meant: nearby(&self.folder, &name, |folder| self.allows(folder)),
+            meant: self.meant(&name),
         }
+    }
+
+    /// The existing file that a name was perhaps meant to be, with `/` between folders.
+    fn meant(&self, name: &str) -> Option<String> {
+        let name = name.replace('\\', "/");
+        let may_list = |folder: &Path| folder.canonicalize().is_ok_and(|real| self.allows(&real));
+        let meant = nearest_file(&self.folder, Path::new(&name), may_list)?;
+        Some(meant.display().to_string().replace('\\', "/"))
     }
 
     /// The error for a file name that cannot be used.
@@ -235,10 +239,12 @@ impl ModelFiles {
         }
     }
 
-    fn allows(&self, path: &Path) -> bool {
+    /// Whether a path without links is in a folder that may be read.
+    pub(super) fn allows(&self, path: &Path) -> bool {
         self.may_read.iter().any(|folder| path.starts_with(folder))
     }
 
+    /// Counts the bytes of a file against the limit.
     fn counted(&mut self, canonical: &Path, called: &Path) -> Result<ModelFile, FileError> {
         let failed = |source| FileError::Read {
             file: called.to_owned(),
@@ -277,7 +283,7 @@ fn decoded(uri: &str) -> String {
 }
 
 /// Whether a name is a path from a root, of this system or another, or a URL.
-fn is_absolute(name: &str) -> bool {
+pub(super) fn is_absolute(name: &str) -> bool {
     let has_scheme = name.split_once(':').is_some_and(|(scheme, _)| {
         scheme.starts_with(|c: char| c.is_ascii_alphabetic())
             && scheme
@@ -287,7 +293,7 @@ fn is_absolute(name: &str) -> bool {
     has_scheme || name.starts_with(['/', '\\'])
 }
 
-/// The path with `.` and `..` taken out by the letters, links not followed.
+/// The path without `.` and `..`, by the letters alone: links are not resolved.
 fn lexical(path: &Path) -> PathBuf {
     let mut out = PathBuf::new();
     for part in path.components() {

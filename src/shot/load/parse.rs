@@ -1,12 +1,14 @@
-//! From a shot file to a [`Shot`], or to all of its mistakes at once.
+//! The steps from a shot file to a [`Shot`], or to all of its mistakes at once.
 //!
-//! Where the TOML itself is broken, the syntax errors are reported with whatever else is
-//! wrong on lines without one; what is missing cannot be said then.
+//! If the TOML itself is broken, syntax errors are reported together with the mistakes on other
+//! lines. Missing keys are not reported then: they may be on the broken lines.
 
+use super::check::check;
+use super::file_names;
 use super::mistake::{Mistake, Mistakes, Places};
-use super::text::{SAVE_AS_UTF8, text_of};
 use super::walk::{MISSING, Walk, spans};
-use super::{Shot, check, file_names};
+use crate::shot::Shot;
+use crate::shot::text::{SAVE_AS_UTF8, text_of};
 use std::ffi::OsStr;
 use std::fs::File;
 use std::io::{self, Read};
@@ -14,13 +16,13 @@ use std::ops::Range;
 use std::path::Path;
 use toml::de::DeTable;
 
-/// Largest shot file that is read, in bytes.
+/// Size of the largest shot file that is read, in bytes.
 pub const MAX_BYTES: u64 = 4 << 20;
 
 /// Reads and checks a shot file.
 ///
 /// # Errors
-/// All mistakes in it, or the one reason why it cannot be read.
+/// All mistakes in the file, or the one reason why it cannot be read.
 pub fn load(path: &Path) -> Result<Shot, Mistakes> {
     if let Some(stem @ ("." | "..")) = path.file_stem().and_then(OsStr::to_str) {
         let message =
@@ -51,7 +53,7 @@ pub fn load(path: &Path) -> Result<Shot, Mistakes> {
     parse(&source, path)
 }
 
-/// The file's bytes, at most one more than a shot may have.
+/// The bytes of the file, at most one more than [`MAX_BYTES`].
 fn read(path: &Path) -> io::Result<Vec<u8>> {
     let file = File::open(path)?;
     if file.metadata()?.is_dir() {
@@ -74,10 +76,11 @@ fn unreadable(path: &Path, error: &io::Error) -> Mistakes {
     Mistakes::unreadable(path, message, help)
 }
 
-/// Checks the text of a shot; files that it names are looked for from the folder of `path`.
+/// Reads and checks the text of a shot. Files that it names are relative to the folder of `path`,
+/// which itself need not exist.
 ///
 /// # Errors
-/// All mistakes in it.
+/// All mistakes in the text.
 pub fn parse(source: &str, path: &Path) -> Result<Shot, Mistakes> {
     let (tree, errors) = DeTable::parse_recoverable(source);
     let places = Places::new(path, source, || spans(tree.get_ref()));
@@ -96,8 +99,8 @@ pub fn parse(source: &str, path: &Path) -> Result<Shot, Mistakes> {
         Ok(mut shot) => {
             path.clone_into(&mut shot.path);
             shot.places = places.clone();
-            shot.settle_file_names();
-            let mistakes = check::check(&shot, walk);
+            shot.normalize_file_names();
+            let mistakes = check(&shot, walk);
             if mistakes.is_empty() {
                 Ok(shot)
             } else {
@@ -122,7 +125,7 @@ fn syntax_mistake(error: &toml::de::Error, source: &str) -> Mistake {
     }
 }
 
-/// What to do about a path with `\` in double quotes, if that is what TOML stumbles over.
+/// Remedy for a path with `\` in double quotes, if that is the cause of the syntax error.
 fn escape_help(error: &toml::de::Error, source: &str) -> Option<String> {
     const OF_ESCAPES: [&str; 3] = [
         "missing escaped value",
@@ -136,7 +139,7 @@ fn escape_help(error: &toml::de::Error, source: &str) -> Option<String> {
     (is_path && of_escape).then(|| file_names::ESCAPES.to_owned())
 }
 
-/// Syntax errors and those other mistakes that cannot be their consequence.
+/// Syntax errors, and those other mistakes that cannot be a consequence of them.
 fn with_structure(mut syntax: Vec<Mistake>, others: Vec<Mistake>, source: &str) -> Vec<Mistake> {
     let broken: Vec<Range<usize>> = syntax
         .iter()
@@ -159,6 +162,7 @@ fn with_structure(mut syntax: Vec<Mistake>, others: Vec<Mistake>, source: &str) 
     syntax
 }
 
+/// The span extended to whole lines.
 fn whole_lines(span: &Range<usize>, source: &str) -> Range<usize> {
     let bytes = source.as_bytes();
     let before = &bytes[..span.start.min(bytes.len())];

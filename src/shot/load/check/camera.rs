@@ -1,6 +1,6 @@
-//! The camera: one way to say where it looks and how wide, and something to look at.
+//! The camera: one way to state its direction and its field of view, and a point to look at.
 
-use super::Checks;
+use super::checks::Checks;
 use crate::shot::{Projection, Track};
 
 impl Checks<'_> {
@@ -8,7 +8,7 @@ impl Checks<'_> {
         let camera = &self.shot.camera;
         if camera.worldline.as_deref() == Some("camera") {
             let message = "the camera cannot ride on its own worldline".to_owned();
-            self.say("camera.worldline", message, "name another one, or \"lab\"");
+            self.report("camera.worldline", message, "name another one, or \"lab\"");
         } else {
             self.check_worldline("camera.worldline", camera.worldline.as_ref());
         }
@@ -23,11 +23,11 @@ impl Checks<'_> {
         let path = format!("camera.{other}");
         if self.given(&format!("camera.{one}")) && self.given(&path) {
             let message = format!("`{one}` and `{other}` exclude each other");
-            self.say(&path, message, "leave out one of them");
+            self.report(&path, message, "leave out one of them");
         }
     }
 
-    /// What the schema, which knows no projection, lets pass.
+    /// Bounds on angles that depend on the projection, which the schema cannot express.
     fn fields_of_view(&mut self) {
         let camera = &self.shot.camera;
         if camera.projection.is_none() && self.given("camera.projection") {
@@ -68,7 +68,7 @@ impl Checks<'_> {
             if !fits(degrees) {
                 let key = format!("{key}{end}");
                 let message = format!("`{key}` must be {bound}, not {degrees}");
-                self.say(&key, message, help);
+                self.report(&key, message, help);
             }
         }
     }
@@ -85,7 +85,7 @@ impl Checks<'_> {
         let position = camera.position.as_ref().unwrap_or(&origin);
         if let Some(frame) = self.first(position, target, |from, to| from == to) {
             let message = format!("the camera looks at its own position at frame {frame}");
-            self.say(
+            self.report(
                 "camera.look_at",
                 message,
                 "look at another point, or write yaw and pitch",

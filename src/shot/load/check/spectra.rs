@@ -1,10 +1,10 @@
-//! Spectra, by name or inline: one kind each, ascending points, files and illuminants there.
+//! Spectra, by name or inline: one kind each, ascending points, files and illuminants that exist.
 
-use super::Checks;
+use super::checks::Checks;
 use crate::shot::names::{did_you_mean, short};
 use crate::shot::{SpectrumTable, SpectrumValue, Track};
 
-/// Names of the illuminants, which are spectra that every shot has.
+/// Names of the illuminants: spectra that every shot has without defining them.
 pub const ILLUMINANTS: &[&str] = &["A", "C", "D50", "D55", "D65", "D75", "E", "F2", "F7", "F11"];
 
 const KINDS: [&str; 7] = [
@@ -17,7 +17,7 @@ const KINDS: [&str; 7] = [
     "file",
 ];
 
-/// Keys that belong to some kinds only, with those kinds.
+/// Keys that have a meaning only with certain kinds, and those kinds.
 const COMPANIONS: [(&str, &[&str]); 3] = [
     ("tension", &["points"]),
     ("unit_at", &["blackbody"]),
@@ -31,7 +31,7 @@ impl Checks<'_> {
         }
     }
 
-    /// A spectrum wherever one stands.
+    /// Checks a spectrum in any place where one can stand.
     pub(super) fn spectrum(&mut self, key: &str, value: Option<&SpectrumValue>) {
         match value {
             Some(SpectrumValue::Name(name)) => {
@@ -64,7 +64,7 @@ impl Checks<'_> {
         let kinds: Vec<&str> = KINDS.iter().filter(given).copied().collect();
         let help = format!("a spectrum is one of {}", KINDS.join(", "));
         match kinds.as_slice() {
-            [] => self.say(
+            [] => self.report(
                 key,
                 format!("`{}` says nothing of its values", short(key)),
                 &help,
@@ -72,14 +72,14 @@ impl Checks<'_> {
             [_] => {}
             [.., last] => {
                 let message = format!("`{}` is {} at once", short(key), kinds.join(" and "));
-                self.say(&format!("{key}.{last}"), message, &help);
+                self.report(&format!("{key}.{last}"), message, &help);
             }
         }
         for (companion, owners) in COMPANIONS {
             let path = format!("{key}.{companion}");
             if self.given(&path) && !owners.iter().any(|owner| kinds.contains(owner)) {
                 let message = format!("`{companion}` has no meaning here");
-                self.say(
+                self.report(
                     &path,
                     message,
                     &format!("it belongs to {}", owners.join(", ")),
@@ -93,14 +93,14 @@ impl Checks<'_> {
         for (i, [nm, value]) in points.iter().enumerate() {
             if *nm <= 0.0 {
                 let message = format!("a point at {nm} nm");
-                self.say(
+                self.report(
                     &format!("{key}[{i}][0]"),
                     message,
                     "wavelengths are above 0",
                 );
             } else if *nm <= previous {
                 let message = format!("a point at {nm} nm after one at {previous} nm");
-                self.say(
+                self.report(
                     &format!("{key}[{i}][0]"),
                     message,
                     "wavelengths must strictly ascend",
@@ -108,13 +108,13 @@ impl Checks<'_> {
             }
             if *value < 0.0 {
                 let message = format!("a spectrum of {value} at {nm} nm");
-                self.say(&format!("{key}[{i}][1]"), message, "values are at least 0");
+                self.report(&format!("{key}[{i}][1]"), message, "values are at least 0");
             }
             previous = *nm;
         }
     }
 
-    /// The largest value that the author of a spectrum wrote, with the frames of it if it moves.
+    /// The largest value that the author of a spectrum wrote, as a track if it moves.
     pub(super) fn authored_values(&self, value: &SpectrumValue) -> Track<f64> {
         match value {
             SpectrumValue::Number(track) => track.clone(),
@@ -127,7 +127,7 @@ impl Checks<'_> {
     }
 }
 
-/// The largest authored value; 0 where the author wrote none, such as a black body's.
+/// The largest authored value; 0 if there is none, as for a black body.
 fn values_of(table: &SpectrumTable) -> Track<f64> {
     let largest = |values: &mut dyn Iterator<Item = f64>| values.fold(0.0, f64::max);
     if let Some(track) = &table.constant {
