@@ -9,7 +9,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 
-/// A restframe shot: what is in the scene, how it moves, who looks at it and what is written.
+/// A restframe shot: the scene and its motion, the camera, the sensor, and the files to write.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Shot {
@@ -36,11 +36,11 @@ pub struct Shot {
     /// Lamps beside those of the model files.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub light: Vec<Light>,
-    /// What is seen where no surface is.
+    /// The background, seen where no surface is.
     #[serde(default)]
     #[schemars(extend("default" = {}))]
     pub background: Background,
-    /// The camera: where it is, where it looks, how wide.
+    /// The camera: its position, direction and field of view.
     pub camera: Camera,
     /// Which effects are simulated.
     #[serde(default)]
@@ -53,26 +53,26 @@ pub struct Shot {
     #[serde(default)]
     #[schemars(extend("default" = {}))]
     pub sensor: Sensor,
-    /// What is approximated, and how finely.
+    /// Approximations, and how fine they are.
     #[serde(default)]
     #[schemars(extend("default" = {}), with = "AccuracyKeys")]
     pub accuracy: Accuracy,
-    /// Files and layers that are written.
+    /// Files and layers to write.
     #[serde(default)]
     #[schemars(extend("default" = {}))]
     pub output: Output,
     /// Plots of single pixels' curves, drawn into the PNG.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub inset: Vec<Inset>,
-    /// What is assembled from the finished frames.
+    /// What to assemble from the finished frames.
     #[serde(default)]
     #[schemars(extend("default" = {}))]
     pub sequence: Sequence,
-    /// The shot file's path, as it was given.
+    /// Path of the shot file, as it was given.
     #[serde(skip)]
     #[schemars(skip)]
     pub path: PathBuf,
-    /// Where in the file each key stands, for mistakes that later stages find.
+    /// Places of all keys in the file, for mistakes that are found later.
     #[serde(skip)]
     #[schemars(skip)]
     pub places: Places,
