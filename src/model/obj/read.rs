@@ -1,23 +1,17 @@
-//! Wavefront OBJ: one mesh for each object or group and material, polygons cut into triangles.
-//!
-//! The text is checked line by line and reduced to what is read, so that mistakes carry their line
-//! and tobj meets nothing that it would misread or panic at (names are numbers to it); tobj makes the meshes. Smoothing
-//! groups are not interpreted: without `vn` lines a mesh is flat.
+//! From the text of an OBJ file to a [`Model`].
 
-mod library;
-mod number;
-mod scan;
-
-use super::mesh::RawMesh;
-use super::polygon::Triangulator;
-use super::{Model, ModelError, Placement, Warning};
+use super::scan::called;
+use super::{library, scan};
+use crate::model::mesh::RawMesh;
+use crate::model::polygon::Triangulator;
+use crate::model::{Model, ModelError, Placement, Warning};
 use crate::shot::ModelFiles;
 use ::glam::{DAffine3, DVec3};
 use indexmap::{IndexMap, IndexSet};
 use tobj::LoadOptions;
 
 /// Reads the text of an OBJ file and the material libraries it names.
-pub(super) fn read(bytes: Vec<u8>, files: &mut ModelFiles) -> Result<Model, ModelError> {
+pub(in crate::model) fn read(bytes: Vec<u8>, files: &mut ModelFiles) -> Result<Model, ModelError> {
     let scan = scan::scan(&bytes, files)?;
     drop(bytes);
     let mut warnings = scan.warnings;
@@ -56,14 +50,6 @@ pub(super) fn read(bytes: Vec<u8>, files: &mut ModelFiles) -> Result<Model, Mode
     }
     model.warnings = warnings;
     Ok(model)
-}
-
-/// An object or group, for messages.
-fn called(name: &str) -> String {
-    match name {
-        "" => "the mesh".to_owned(),
-        _ => format!("object `{name}`"),
-    }
 }
 
 /// One mesh for each name and material, in the order of their first faces.
