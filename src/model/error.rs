@@ -1,7 +1,7 @@
 //! What can be wrong with a model file: each message says what, where, what was expected, what to do.
 
 use crate::shot::FileError;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use thiserror::Error;
 
 /// Why a model file was not read.
@@ -189,4 +189,15 @@ pub enum ModelError {
         /// How many are allowed.
         limit: u64,
     },
+}
+
+impl ModelError {
+    /// What is wrong with a part of a file.
+    pub(super) fn invalid(file: &Path, at: &str, problem: impl Into<String>) -> Self {
+        Self::Invalid {
+            file: file.to_owned(),
+            at: at.to_owned(),
+            problem: problem.into(),
+        }
+    }
 }

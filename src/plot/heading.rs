@@ -1,8 +1,7 @@
 //! What stands above the panels: caption and legend.
 
 use super::drawing::{Anchor, Group, Mark, Shape, Text};
-use super::layout::{CHARACTER, INK, Page};
-use super::sheet::{label, strokes};
+use super::marks::{CHARACTER, INK, Page, label, strokes};
 use super::{Plot, Series, Stroke};
 
 /// The lines above everything, and where they end.

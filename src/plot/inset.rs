@@ -7,8 +7,8 @@
 
 use super::drawing::{Anchor, Drawing, Group, Mark, Shape, Text};
 use super::heading::legend;
-use super::layout::{CHARACTER, PAPER, Page};
-use super::sheet::{Rect, Sheet, label, longest};
+use super::marks::{CHARACTER, PAPER, Page, Rect, label};
+use super::sheet::{Sheet, longest};
 use super::{Panel, Plot};
 
 /// Height below which not even bare curves can be told apart, pixels.

@@ -3,24 +3,11 @@
 //! Text is measured by guess, [`CHARACTER`] of its size a character: whoever draws has fonts of
 //! their own. Space is left for a wide one.
 
+use super::Plot;
 use super::drawing::{Drawing, Group};
 use super::heading::{caption, legend};
-use super::sheet::{Rect, Sheet};
-use super::{Color, Plot};
-
-/// The page that a plot is drawn on.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Page {
-    /// Width and height, pixels.
-    pub size: [f64; 2],
-    /// Size of the font of labels, pixels.
-    pub font: f64,
-}
-
-pub(super) const PAPER: Color = [255, 255, 255];
-pub(super) const INK: Color = [34, 34, 34];
-/// Guessed width of a character, in sizes of the font.
-pub(super) const CHARACTER: f64 = 0.58;
+use super::marks::{PAPER, Page, Rect};
+use super::sheet::Sheet;
 
 /// Places a plot on a page.
 pub fn lay_out(plot: &Plot, page: Page) -> Drawing {

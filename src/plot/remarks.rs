@@ -4,8 +4,7 @@
 
 use super::Remark;
 use super::drawing::{Anchor, Mark, Shape, Text};
-use super::layout::CHARACTER;
-use super::sheet::{Rect, label};
+use super::marks::{CHARACTER, Rect, label};
 
 /// Size of the font of labels, in sizes of that of the axes.
 const SIZE: f64 = 0.86;

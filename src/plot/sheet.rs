@@ -2,61 +2,14 @@
 
 use super::axis::Tick;
 use super::drawing::{Anchor, Mark, Shape, Text};
-use super::layout::{CHARACTER, INK};
 use super::line::{simplified, visible_runs};
+use super::marks::{CHARACTER, INK, Rect, USUAL_FONT, label, strokes};
 use super::remarks::beside;
-use super::{Color, Panel, Remark, Series, Stroke};
+use super::{Color, Panel, Remark, Series};
 
 const GRID: Color = [222, 222, 222];
 /// How far a drawn line may be from the curve, pixels.
 const TOLERANCE: f64 = 0.04;
-/// Width of the stroke of rings, in the usual font.
-const RING: f64 = 1.8;
-/// The font that widths of strokes are given for, pixels.
-const USUAL_FONT: f64 = 16.0;
-
-/// A line through points on the page, or dots there, as a series is drawn.
-pub(super) fn strokes(class: &str, series: &Series, points: &[[f64; 2]], font: f64) -> Vec<Mark> {
-    let mark = |shape| Mark::new(class, series.color, shape);
-    let scale = font / USUAL_FONT;
-    let line = |width: f64, dash: Option<f64>| {
-        vec![mark(Shape::Line {
-            points: points.to_vec(),
-            width: width * scale,
-            dash,
-        })]
-    };
-    match series.stroke {
-        Stroke::Solid(width) => line(width, None),
-        Stroke::Dashed(width) => line(width, Some(width * 2.5 * scale)),
-        Stroke::Dots(radius) => points
-            .iter()
-            .map(|center| {
-                mark(Shape::Dot {
-                    center: *center,
-                    radius: radius * scale,
-                })
-            })
-            .collect(),
-        Stroke::Rings(radius) => points
-            .iter()
-            .map(|center| {
-                mark(Shape::Ring {
-                    center: *center,
-                    radius: radius * scale,
-                    width: RING * scale,
-                })
-            })
-            .collect(),
-    }
-}
-
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Rect {
-    pub(super) corner: [f64; 2],
-    pub(super) size: [f64; 2],
-}
-
 /// A panel on its part of the page.
 pub(super) struct Sheet<'a> {
     pub(super) panel: &'a Panel,
@@ -274,10 +227,6 @@ impl<'a> Sheet<'a> {
         }
         marks
     }
-}
-
-pub(super) fn label(class: &str, anchor: Anchor, text: Text) -> Mark {
-    Mark::new(class, INK, Shape::Text(Text { anchor, ..text }))
 }
 
 /// Characters of the longest label.

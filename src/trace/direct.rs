@@ -209,7 +209,7 @@ impl ShadowRay {
     ) -> (Event, DVec3, f64) {
         let spacetime = tracer.spacetime;
         let (origin, seen) = if worldline == surface.worldline {
-            let own = relativity::Light {
+            let own = relativity::SeenLight {
                 direction: self.arriving.in_surface,
                 frequency_ratio: self.arriving.doppler,
             };

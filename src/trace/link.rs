@@ -1,7 +1,7 @@
 //! The map from one worldline's rest frame to another's, for single events and vectors and for
 //! camera rays, many at a time.
 
-use crate::relativity::{Boost, Event, FourVector, Light, Transform};
+use crate::relativity::{Boost, Event, FourVector, SeenLight, Transform};
 use glam::DVec3;
 
 /// The map from one worldline's rest frame to another's.
@@ -36,10 +36,10 @@ impl Link {
 
     /// Light of unit direction of travel `n` in the other frame.
     #[inline(always)]
-    pub fn light(&self, n: DVec3) -> Light {
+    pub fn light(&self, n: DVec3) -> SeenLight {
         match self {
             Self::Finite(transform) => transform.light(n),
-            Self::Snapshot { doppler, .. } => Light {
+            Self::Snapshot { doppler, .. } => SeenLight {
                 direction: n,
                 ..doppler.light_of_unit(n)
             },

@@ -2,7 +2,7 @@
 //! once.
 
 use super::link::Link;
-use crate::relativity::{Boost, Event, Light, Transform, Worldline};
+use crate::relativity::{Boost, Event, SeenLight, Transform, Worldline};
 use crate::scene::Scene;
 
 /// All links of an image.
@@ -81,7 +81,7 @@ impl Spacetime {
     /// one worldline to the other. Where light takes no time all frames share its direction, and
     /// the one in Doppler's formula is the receiver's, as for the camera.
     #[inline(always)]
-    pub fn received_ratio(&self, source: usize, receiver: usize, seen: &Light) -> f64 {
+    pub fn received_ratio(&self, source: usize, receiver: usize, seen: &SeenLight) -> f64 {
         if self.finite {
             return seen.frequency_ratio;
         }

@@ -1,12 +1,22 @@
 //! An EXR's blocks put together: rows developed as they come, values that are not finite counted.
 
-use super::{Decoded, Fault, MOST_CHANNELS, exr_fault};
+use super::fault::{Fault, exr_fault};
+use super::file::MOST_CHANNELS;
 use crate::film::{self, Developed};
 use ::exr::block::UncompressedBlock;
 use ::exr::math::Vec2;
 use ::exr::meta::attribute::{ChannelDescription, ChannelList, SampleType};
 use ::exr::meta::{BlockDescription, header::Header};
 use ::exr::prelude::f16;
+
+/// Pixels of 8 bits, and the channels with values that are not finite, each with how many.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Decoded {
+    /// Three bytes a pixel, row by row from the top.
+    pub rgb8: Vec<u8>,
+    /// By name.
+    pub not_finite: Vec<(String, u64)>,
+}
 
 /// An EXR's picture as its blocks come.
 pub(super) struct Canvas {

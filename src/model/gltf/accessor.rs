@@ -5,12 +5,15 @@
 //! Source: Khronos glTF 2.0 specification, section 3.6.2 (accessors, sparse ones included).
 
 use super::extensions::unsupported;
-use super::{MAX_ELEMENTS, Source};
+use super::source::Source;
 use crate::model::ModelError;
 use ::gltf::json::accessor::{Accessor, ComponentType, Type, sparse::Sparse};
 use ::gltf::json::buffer::View;
 use ::gltf::json::validation::Checked;
 use ::gltf::json::{Index, validation::USize64};
+
+/// Accessor elements decoded for one file at most: shared accessors count each time.
+pub(super) const MAX_ELEMENTS: u64 = 1 << 27;
 
 /// Elements of an accessor of zeros at most, which cost the file no bytes.
 const MAX_ZEROS: u64 = 1 << 22;

@@ -1,7 +1,6 @@
 //! The bytes of a file's buffers, each asked for when it is first used: the glb's own chunk, data
 //! URIs, files beside the model.
 
-use super::invalid;
 use crate::model::ModelError;
 use crate::shot::ModelFiles;
 use ::gltf::json::Buffer;
@@ -46,7 +45,7 @@ impl<'a> Buffers<'a> {
             (None, Some(binary), 0) => Cow::Borrowed(binary),
             _ => {
                 let problem = "has no uri, and there is no chunk for it: export as one .glb";
-                return Err(invalid(&files.model, &at, problem));
+                return Err(ModelError::invalid(&files.model, &at, problem));
             }
         };
         let (length, found) = (buffer.byte_length.0, bytes.len());
@@ -54,7 +53,7 @@ impl<'a> Buffers<'a> {
             let problem = format!(
                 "is to have {length} bytes but only {found} are there: copy the file again"
             );
-            return Err(invalid(&files.model, &at, problem));
+            return Err(ModelError::invalid(&files.model, &at, problem));
         }
         match &mut bytes {
             Cow::Borrowed(bytes) => *bytes = &bytes[..length as usize],
@@ -74,7 +73,7 @@ fn from_uri(uri: &str, files: &mut ModelFiles, at: &str) -> Result<Vec<u8>, Mode
     }
     let broken = |problem: &str| {
         let remedy = "the file is cut short or broken; export it again, or as one .glb";
-        invalid(
+        ModelError::invalid(
             &files.model,
             at,
             format!("has a data URI {problem}: {remedy}"),

@@ -1,6 +1,5 @@
 //! Extensions a file needs: supported, harmless, or refused with the way out.
 
-use super::invalid;
 use crate::model::{ModelError, Warning};
 use serde_json::Value;
 use std::path::Path;
@@ -86,5 +85,5 @@ fn names<'a>(raw: &'a Value, key: &str, file: &Path) -> Result<Vec<&'a str>, Mod
     let names = list
         .as_array()
         .and_then(|list| list.iter().map(Value::as_str).collect());
-    names.ok_or_else(|| invalid(file, key, "is not a list of names"))
+    names.ok_or_else(|| ModelError::invalid(file, key, "is not a list of names"))
 }

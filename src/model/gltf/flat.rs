@@ -6,7 +6,7 @@
 //! k, and on flat meshes M + s n kᵀ, which can be inverted, does the same as M; its determinant s a
 //! has the sign that is chosen for s, and so the flattened mesh keeps its front.
 
-use super::Source;
+use super::source::Source;
 use crate::model::mesh::{RawMesh, normal};
 use crate::model::{Mesh, Model, ModelError, Warning};
 use ::glam::{DAffine3, DMat3, DVec3};

@@ -1,6 +1,6 @@
 //! Lamps of KHR_lights_punctual, their numbers in f64 as written.
 
-use super::{Source, name_of};
+use super::source::{Source, name_of};
 use crate::model::{Lamp, LampKind, Model, ModelError, Warning};
 use ::glam::{DAffine3, DMat3, DVec3};
 use serde_json::Value;

@@ -3,7 +3,7 @@
 //! An emission of 1 is 1 cd/m² (KHR_materials_emissive_strength), but in Blender's files radiance as
 //! it stands. Materials that no mesh in the picture uses give no warnings.
 
-use super::{Source, name_of};
+use super::source::{Source, name_of};
 use crate::model::{LUMENS_PER_WATT, Model, ModelError, ModelMaterial, Warning};
 use ::gltf::json::Material;
 use ::gltf::json::material::AlphaMode;

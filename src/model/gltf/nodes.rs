@@ -5,7 +5,7 @@
 //! that KHR_node_visibility hides are left out with all below them, lamps as well.
 
 use super::flat::{Extent, Pose};
-use super::{Source, name_of};
+use super::source::{Source, name_of};
 use crate::model::mesh::is_in_range;
 use crate::model::{Model, ModelError, Placement, Warning};
 use ::glam::{DAffine3, DMat3, DMat4, DQuat, DVec3};

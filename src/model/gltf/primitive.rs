@@ -1,7 +1,7 @@
 //! Primitives of a glTF mesh: each one mesh of ours.
 
 use super::extensions::unsupported;
-use super::{Source, name_of};
+use super::source::{Source, name_of};
 use crate::model::mesh::RawMesh;
 use crate::model::{Mesh, Model, ModelError, Warning};
 use ::glam::DVec3;

@@ -1,7 +1,6 @@
 //! The lines of an OBJ file, each checked, and the text reduced to positions, normals and faces, and
 //! to objects and materials by number.
 
-use super::called;
 use super::number::numbers;
 use crate::model::mesh::is_in_range;
 use crate::model::polygon::MAX_CORNERS;
@@ -307,3 +306,11 @@ impl Scan {
 
 /// What the three parts of a corner refer to.
 const KINDS: [&str; 3] = ["position", "texture coordinate", "normal"];
+
+/// An object or group, for messages.
+pub(super) fn called(name: &str) -> String {
+    match name {
+        "" => "the mesh".to_owned(),
+        _ => format!("object `{name}`"),
+    }
+}
