@@ -10,8 +10,8 @@ mod fixture;
 
 use fixture::{AWKWARD, noisy, study};
 use restframe::study::Study;
-use restframe::study::findings::Sweep;
 use restframe::study::report::{csv, html, json};
+use restframe::study::results::Sweep;
 use roxmltree::{Document, Node, ParsingOptions};
 use serde_json::Value;
 use std::fs;

@@ -1,10 +1,10 @@
-//! Where the time goes: phases, effects, and what the 1990 paper says of them.
+//! Where the time goes: phases, effects, and the statements of the 1990 paper.
 
 use super::quantity::{NOTHING, percent, time};
-use crate::study::findings::{EffectCost, Study};
+use crate::study::results::{EffectCost, Study};
 use maud::{Markup, html};
 
-/// The phases of the shot as it is, with bars.
+/// The phases of the unchanged shot, with bars.
 pub(super) fn phases(study: &Study) -> Markup {
     if study.phases.is_empty() {
         return html! {};
@@ -38,7 +38,7 @@ pub(super) fn phases(study: &Study) -> Markup {
     }
 }
 
-/// What each effect costs.
+/// The cost of each effect.
 pub(super) fn effects(study: &Study) -> Markup {
     if study.effects.is_empty() {
         return html! {};
@@ -68,7 +68,7 @@ pub(super) fn effects(study: &Study) -> Markup {
     }
 }
 
-/// What a cost and its spread say.
+/// A cost and its spread in words.
 fn verdict(effect: &EffectCost) -> &'static str {
     let hidden = effect.cost.abs() <= effect.spread;
     match (effect.called, hidden) {
@@ -79,7 +79,7 @@ fn verdict(effect: &EffectCost) -> &'static str {
     }
 }
 
-/// The findings of the 1990 paper beside ours.
+/// The results of the 1990 paper beside ours.
 pub(super) fn paper(study: &Study) -> Markup {
     if study.paper.is_empty() {
         return html! {};

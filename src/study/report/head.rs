@@ -1,11 +1,12 @@
-//! What stands above and below the findings: what was studied, on what, and how to read it.
+//! The parts of the page above and below the results: what was studied, on which machine, and how
+//! to read it.
 
 use crate::plot::STYLE;
-use crate::study::findings::Study;
 use crate::study::report::quantity::{number, percent, times};
+use crate::study::results::Study;
 use maud::{Markup, PreEscaped, html};
 
-/// The title, as it stands on the page and in the window's frame.
+/// The title, on the page and in the window's frame.
 fn title(study: &Study) -> &str {
     study.title.as_deref().unwrap_or(&study.shot)
 }
@@ -22,7 +23,7 @@ pub(super) fn head(study: &Study) -> Markup {
     }
 }
 
-/// What was studied, on what, and how far times can be trusted.
+/// The image, the machine, and how far the times can be trusted.
 pub(super) fn opening(study: &Study) -> Markup {
     let [width, height] = study.size;
     let machine = &study.machine;
@@ -67,10 +68,10 @@ fn counted(count: impl std::fmt::Display, noun: &str) -> String {
     format!("{count} {noun}{plural}")
 }
 
-/// How far a ratio of times is from 1 where a busy machine cannot tell it from 1.
+/// Smallest difference from 1 of a ratio of times that a busy machine can still tell.
 const NOT_TOLD_APART: f64 = 0.1;
 
-/// A ratio of times, marked where the machine was too busy to tell it from 1.
+/// A ratio of times, marked if the machine was too busy to tell it from 1.
 pub(super) fn time_ratio(study: &Study, ratio: f64) -> Markup {
     let alike = study.noise.too_noisy
         && (1.0 / (1.0 + NOT_TOLD_APART)..=1.0 + NOT_TOLD_APART).contains(&ratio);
@@ -80,7 +81,7 @@ pub(super) fn time_ratio(study: &Study, ratio: f64) -> Markup {
     }
 }
 
-/// What the words mean.
+/// The meaning of the terms.
 pub(super) fn legend() -> Markup {
     let delta_e = number(1.0);
     html! {
