@@ -14,9 +14,9 @@ pub(super) fn section(study: &Study) -> Markup {
                 p { "Nothing in this shot leaves a choice." }
             } @else {
                 p {
-                    "For each knob the cheapest of its settings whose ΔE2000 stays below a bound "
-                    "for 99 % of the pixels, the other knobs as the shot has them: each was "
-                    "measured alone, not all together. Times are relative to the shot as it is."
+                    "For each knob, the cheapest setting whose ΔE2000 stays below a limit in 99 % "
+                    "of the pixels. Each knob was measured alone, with the others at the values "
+                    "of the shot. Times are relative to the shot as it is."
                 }
                 div.scroll { table {
                     thead { tr {

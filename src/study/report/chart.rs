@@ -12,7 +12,7 @@ pub(super) struct Chart {
     /// An `svg` element.
     pub(super) svg: String,
     /// Notes, one sentence each.
-    pub(super) remarks: Vec<String>,
+    pub(super) notes: Vec<String>,
 }
 
 /// The time on the horizontal axis.
@@ -156,7 +156,7 @@ impl<'a> Easel<'a> {
         }
         Chart {
             svg: svg(&drawing),
-            remarks: self.remarks(),
+            notes: self.notes(),
         }
     }
 
@@ -248,7 +248,7 @@ impl<'a> Easel<'a> {
             Error::Measured(value) => format!("error {} {}", number(value), self.measure.unit),
             Error::None if dot.point.errors.is_none() => "the reference".to_owned(),
             Error::None => "no error".to_owned(),
-            Error::Beyond => "an error that is no number".to_owned(),
+            Error::Beyond => "an infinite error".to_owned(),
         };
         Remark {
             label: dot.point.setting.clone(),
@@ -263,28 +263,28 @@ impl<'a> Easel<'a> {
         }
     }
 
-    fn remarks(&self) -> Vec<String> {
+    fn notes(&self) -> Vec<String> {
         let floored = |dot: &Dot<'_>| match dot.error {
             Error::Measured(value) => value <= self.y.range[0],
             other => other == Error::None,
         };
-        let mut remarks = Vec::new();
+        let mut notes = Vec::new();
         if self.dots.iter().any(floored) {
-            remarks.push(
-                "On the floor of the chart stands what has no error, or none that it can show."
+            notes.push(
+                "Points at the lower edge of the chart have no error, or one too small to show."
                     .to_owned(),
             );
         }
         if self.dots.iter().any(|dot| dot.error == Error::Beyond) {
-            remarks.push("At its ceiling stands what has an error beyond all numbers.".to_owned());
+            notes.push("Points at its upper edge have an infinite error.".to_owned());
         }
         let lacking = self.sweep.points.len() - self.dots.len();
         if lacking > 0 {
-            remarks.push(format!(
+            notes.push(format!(
                 "Settings without this error, found in the table only: {lacking}."
             ));
         }
-        remarks
+        notes
     }
 }
 

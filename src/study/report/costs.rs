@@ -46,8 +46,8 @@ pub(super) fn effects(study: &Study) -> Markup {
     html! {
         section #effects {
             h2 { "What each effect costs" }
-            p { "The image rendered with and without each effect, in turns: the median of their "
-                "ratios, and half of the range of them, without a tenth at either end." }
+            p { "The image rendered with and without each effect, alternately: the median of the "
+                "ratios, and half of their range without the outer tenth at either end." }
             div.scroll { table {
                 thead { tr {
                     th { "Effect" } th { "Called for" } th.n { "With" } th.n { "Without" }
@@ -73,7 +73,7 @@ fn verdict(effect: &EffectCost) -> &'static str {
     let hidden = effect.cost.abs() <= effect.spread;
     match (effect.called, hidden) {
         (false, true) => "not called for: 0 % within the spread",
-        (false, false) => "not called for, and yet beyond the spread",
+        (false, false) => "not called for, but beyond the spread",
         (true, true) => "0 % within the spread",
         (true, false) => "",
     }
@@ -86,7 +86,7 @@ pub(super) fn paper(study: &Study) -> Markup {
     }
     html! {
         section #paper {
-            h2 { "Beside the paper of 1990" }
+            h2 { "Comparison with the paper of 1990" }
             p { "Its section 6, on machines of its day; ours is a part of the time of everything "
                 "else." }
             div.scroll { table {

@@ -24,7 +24,7 @@ pub(super) fn section(study: &Study, sweep: &Sweep, place: usize) -> Markup {
                 @for chart in charts(sweep, &id) {
                     figure {
                         (PreEscaped(chart.svg))
-                        @if !chart.remarks.is_empty() { figcaption { (chart.remarks.join(" ")) } }
+                        @if !chart.notes.is_empty() { figcaption { (chart.notes.join(" ")) } }
                     }
                 }
                 (settings::table(study, sweep))
