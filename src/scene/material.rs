@@ -2,8 +2,8 @@
 //! shot's laid over it. All spectra are those of the surface's rest frame.
 
 use super::bsdf::{Bsdf, Lobe, LobeKind, Reflectance};
-use super::model::ModelMaterial;
 use super::spectra::Spectra;
+use crate::model::ModelMaterial;
 use crate::shot;
 use crate::spectrum::{Spectrum, SpectrumError};
 use std::sync::Arc;
