@@ -1,12 +1,13 @@
-//! Light of lamps on a surface, under the shifts of both.
+//! Channels of lamps on a surface, under the shifts of both.
 
-use super::bake::{MaterialCurves, Reflecting};
-use super::curve::Curve;
-use super::curves::{CurveShader, add};
-use super::exact::Reading;
-use super::received::finite;
-use super::shader::ShadeScratch;
-use crate::trace::{DirectLight, ShadeTrees};
+use super::super::curve::Curve;
+use super::super::curves::CurveShader;
+use super::super::integrand::Reading;
+use super::super::material::{MaterialCurves, ReflectorTables};
+use super::super::received::{Doppler, finite};
+use super::super::scratch::ShadeScratch;
+use super::super::table::add;
+use super::super::walk::Lamps;
 
 /// The shifts of a surface's reflectance and of a lamp's light to the camera, and their logarithms.
 struct Shifts {
@@ -19,66 +20,62 @@ fn any_narrow(one: &Curve, other: &Curve) -> bool {
 }
 
 impl CurveShader {
-    /// Light of the surface's lamps. Those that share the surface's shift are summed by emitter,
-    /// so that each table is read once.
+    /// Light that a surface reflects of lamps. Those that share the surface's shift are summed by
+    /// emitter, so that each table is read once.
     pub(super) fn lamps_xyz(
         &self,
-        trees: &ShadeTrees,
-        lamps: &[DirectLight],
-        doppler: f64,
-        surface: &MaterialCurves,
+        material: &MaterialCurves,
+        doppler: Doppler,
+        lamps: Lamps<'_>,
         scratch: &mut ShadeScratch,
     ) -> [f64; 3] {
         let mut sum = [0.0; 3];
-        let shift = self.received.shift(doppler);
+        let shift = doppler.shift();
         let ln_shift = shift.ln();
-        let lobes = surface.reflecting();
-        // Weights by emitter, then by lobe.
+        let lobes = material.reflectors();
         let mut comoving = std::mem::take(&mut scratch.comoving);
         comoving.clear();
         comoving.resize(self.emitters.len() * lobes.len(), 0.0);
-        for lit in lamps {
-            let (emitter, scale) = self.lamps[lit.light as usize];
-            let scale = scale * self.received.irradiance(lit.doppler);
-            let weights = trees.weights_of(lit, lobes.len());
-            let lamp_shift = self.received.shift(lit.doppler);
+        for lamp in lamps.iter() {
+            let emitter = lamp.emitter;
+            let scale = lamp.scale * lamp.doppler.irradiance();
+            let shares = lamp.weights.iter().map(|weight| finite(scale * weight));
+            let lamp_shift = lamp.doppler.shift();
             let shared = lamp_shift == 1.0 || self.emitters[emitter].curve.constant().is_some();
             if shared && lobes.iter().all(|lobe| lobe.tables[emitter].is_some()) {
                 let sums = &mut comoving[emitter * lobes.len()..];
-                for (sum, weight) in sums.iter_mut().zip(weights) {
-                    *sum += finite(scale * weight);
-                }
+                sums.iter_mut()
+                    .zip(shares)
+                    .for_each(|(sum, share)| *sum += share);
             } else {
                 let shifts = Shifts {
                     factors: [shift, shift * lamp_shift],
                     ln: [ln_shift, ln_shift + lamp_shift.ln()],
                 };
-                let shares = weights.iter().map(|weight| finite(scale * weight));
-                let lit = lobes.iter().zip(shares);
-                let xyz = self.lamp_xyz(lit, emitter, &shifts, scratch);
+                let xyz = self.lamp_xyz(lobes.iter().zip(shares), emitter, &shifts, scratch);
                 add(&mut sum, xyz, 1.0);
             }
         }
-        if !lobes.is_empty() {
-            for (emitter, shares) in comoving.chunks_exact(lobes.len()).enumerate() {
-                for (lobe, share) in lobes.iter().zip(shares) {
-                    if let Some(table) = &lobe.tables[emitter]
-                        && *share > 0.0
-                    {
-                        add(&mut sum, table.at(ln_shift), finite(*share));
-                    }
+        let emitters = comoving.chunks_exact(lobes.len().max(1));
+        for (emitter, shares) in emitters.enumerate() {
+            for (lobe, share) in lobes.iter().zip(shares) {
+                if let Some(table) = &lobe.tables[emitter]
+                    && *share > 0.0
+                {
+                    add(&mut sum, table.at(ln_shift), finite(*share));
                 }
             }
         }
         scratch.comoving = comoving;
-        let power = self.received.radiance(doppler);
+        let power = doppler.radiance();
         sum.map(|v| v * power)
     }
 
     /// Light of one lamp that moves against the surface: two shifts, of reflectance and emitter.
+    /// Lobes come with their shares of the emitter's light.
     fn lamp_xyz<'a>(
         &self,
-        lit: impl Iterator<Item = (&'a Reflecting, f64)>,
+        lobes: impl Iterator<Item = (&'a ReflectorTables, f64)>,
         emitter: usize,
         shifts: &Shifts,
         scratch: &mut ShadeScratch,
@@ -86,11 +83,11 @@ impl CurveShader {
         let mut sum = [0.0; 3];
         let [ln_surface, ln_lamp] = shifts.ln;
         let emitter = &self.emitters[emitter];
-        for (reflecting, share) in lit {
+        for (lobe, share) in lobes {
             if share <= 0.0 {
                 continue;
             }
-            let reflectance = &reflecting.reflectance;
+            let reflectance = &lobe.reflectance;
             let xyz = match (
                 reflectance.constant(),
                 reflectance.baked(),
@@ -145,34 +142,5 @@ impl CurveShader {
         let at = |node| smooth.at_node(ln_own, node, |node| narrow.wavelength_nm(node));
         let [shape, _] = scratch.buffers(self.sensor.axis().count());
         narrow.times(ln_shift, at, shape, |shape| smooth.read(shift, shape))
-    }
-
-    /// Adds the spectral radiance that one lamp makes of a surface.
-    pub(super) fn add_lamp(
-        &self,
-        trees: &ShadeTrees,
-        surface: &MaterialCurves,
-        doppler: f64,
-        lit: &DirectLight,
-        out: &mut [f64],
-        scratch: &mut ShadeScratch,
-    ) {
-        let (emitter, scale) = self.lamps[lit.light as usize];
-        let [light, reflected] = scratch.buffers(out.len());
-        let shift = self.received.shift(doppler);
-        let peak = self.emitters[emitter]
-            .curve
-            .read(shift * self.received.shift(lit.doppler), light);
-        let factor =
-            scale * peak * self.received.radiance(doppler) * self.received.irradiance(lit.doppler);
-        let lobes = surface.reflecting();
-        for (lobe, weight) in lobes.iter().zip(trees.weights_of(lit, lobes.len())) {
-            if *weight > 0.0 {
-                let factor = finite(factor * weight * lobe.reflectance.read(shift, reflected));
-                for ((out, light), reflected) in out.iter_mut().zip(&*light).zip(&*reflected) {
-                    *out += factor * f64::from(light * reflected);
-                }
-            }
-        }
     }
 }
