@@ -9,7 +9,7 @@ use divan::{Bencher, black_box, counter::ItemsCount};
 use read::read;
 use restframe::film::exr::{self, Depth};
 use restframe::film::{Development, Film, Metadata, develop, png};
-use restframe::queue::Prepared;
+use restframe::render::Prepared;
 use restframe::render::{Options, development, render};
 use restframe::scene::Scene;
 use restframe::trace::Stage;

@@ -18,6 +18,7 @@ const ROOMS: &[&[&str]] = &[
     &["shade"],
     &["render"],
     &["probe"],
+    &["store", "progress"],
     &["queue"],
     &["sequence", "study"],
     &["cli"],

@@ -7,15 +7,18 @@
 mod answer;
 mod assemble;
 mod check;
-mod finish;
+mod open;
 mod plan;
 mod probe;
 mod render;
 mod study;
 mod verify;
 
-use crate::queue::{FrameList, Mode, Request, Shard};
+use crate::progress::Mode;
+use crate::queue::{FrameList, Shard};
+use crate::render::Prepared;
 use crate::shot::{self, Mistakes};
+use crate::store::Request;
 use clap::{Args, Parser, Subcommand};
 use std::io::{self, IsTerminal, Write};
 use std::path::PathBuf;
@@ -150,15 +153,18 @@ struct PictureArguments {
 }
 
 impl PictureArguments {
-    /// The same for the frames of a list, or for all.
-    fn request(&self, frames: Option<&FrameList>) -> Request {
+    fn request(&self) -> Request {
         Request {
             out: self.out.clone(),
-            frames: frames.cloned().unwrap_or_else(FrameList::all),
             scale: self.scale,
             samples: self.samples,
         }
     }
+}
+
+/// Every frame, where no list is given.
+fn frames(list: Option<&FrameList>) -> FrameList {
+    list.cloned().unwrap_or_else(FrameList::all)
 }
 
 #[derive(Debug, Args)]
@@ -275,6 +281,21 @@ fn misused(message: &str) -> Failed {
 fn mistaken(mistakes: &Mistakes) -> Failed {
     say(mistakes.report(color_on_stderr()).trim_end());
     Failed(MISTAKE)
+}
+
+/// Says what the shot's files ask for and the picture will not show.
+fn warn(prepared: &Prepared) {
+    for warning in prepared.warnings() {
+        say(&format!("warning: {warning}"));
+    }
+}
+
+/// So many threads; 0 for one a processor.
+fn pool(threads: u16) -> Result<rayon::ThreadPool, Failed> {
+    rayon::ThreadPoolBuilder::new()
+        .num_threads(threads.into())
+        .build()
+        .map_err(|error| failed(&error.to_string()))
 }
 
 /// A line on standard error; trouble with it is passed over.

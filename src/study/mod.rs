@@ -11,7 +11,6 @@ mod effects;
 mod errors;
 pub mod findings;
 mod knobs;
-mod memory;
 mod paper;
 mod ranking;
 pub mod report;
@@ -25,10 +24,10 @@ pub use findings::Study;
 use crate::film::EncodeError;
 use crate::film::compare::CompareError;
 use crate::plan::{self, Called};
-use crate::queue::{Names, Prepared};
-use crate::render::{Options, motion_mistake};
+use crate::render::{Options, Prepared, motion_mistake};
 use crate::scene::Scene;
 use crate::shot::{Accuracy, Mistakes, Shot, Spectra};
+use crate::store::Names;
 use crate::trace::Stage;
 use findings::{Machine, Noise, PhaseTime};
 use knobs::KNOBS;
@@ -47,7 +46,7 @@ pub struct Request {
     pub options: Options,
     /// How often every setting is rendered, at least 1.
     pub repeats: u32,
-    /// A folder for files that nobody reads.
+    /// Scratch folder; its files are written only to time writing.
     pub scratch: PathBuf,
 }
 

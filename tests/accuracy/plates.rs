@@ -1,7 +1,7 @@
 //! The plates, small: the same rays shaded exactly and as they are.
 
 use restframe::film::compare::{Comparison, delta_e_2000, lab_from_xyz};
-use restframe::queue::Prepared;
+use restframe::render::Prepared;
 use restframe::render::{Options, render};
 use restframe::scene::Scene;
 use restframe::shot::Spectra;

@@ -1,7 +1,7 @@
 //! Surfaces to which a file gives no material.
 
 use super::bad::{triangle, write};
-use restframe::queue::Prepared;
+use restframe::render::Prepared;
 use restframe::scene::model::Warning;
 use restframe::scene::{Material, Scene};
 use restframe::shot::Mistakes;

@@ -2,7 +2,7 @@
 
 use restframe::film::{Development, Film, develop, png};
 use restframe::probe::{Probe, probe};
-use restframe::queue::Prepared;
+use restframe::render::Prepared;
 use restframe::render::{Options, View, render, rows, spliced};
 use restframe::scene::Scene;
 use restframe::spectrum::color_space::{RGB_FROM_XYZ, encode};
