@@ -13,7 +13,7 @@
     reason = "what cannot be read or resolved fails the test"
 )]
 
-use restframe::film::plot::{Axis, Color, Page, Panel, Plot, Scale, Series, Stroke, lay_out, svg};
+use restframe::plot::{Axis, Color, Page, Panel, Plot, Scale, Series, Stroke, lay_out, svg};
 use restframe::probe::{Probe, probe};
 use restframe::render::Prepared;
 use restframe::render::View;

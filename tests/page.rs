@@ -6,7 +6,7 @@
 )]
 
 use indexmap::IndexMap;
-use restframe::film::{self, Metadata};
+use restframe::image::Metadata;
 use restframe::progress::FrameOutcome;
 use restframe::queue::Stop;
 use restframe::sequence::page::{Outcomes, write};
@@ -74,7 +74,7 @@ fn png(shot_folder: &ShotFolder, frame: u32) -> Vec<u8> {
         fingerprint: Some(shot_folder.keys.frame(frame).fingerprint),
         ..Metadata::default()
     };
-    film::png::encode(160, 90, image.as_raw(), &metadata).unwrap()
+    restframe::image::png::encode(160, 90, image.as_raw(), &metadata).unwrap()
 }
 
 /// The record of a finished frame.

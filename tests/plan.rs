@@ -6,7 +6,8 @@
 )]
 
 use assert_cmd::Command;
-use restframe::film::{self, Metadata};
+use restframe::image;
+use restframe::image::Metadata;
 use restframe::plan::FrameKey;
 use restframe::queue::Costs;
 use restframe::shot;
@@ -114,7 +115,7 @@ fn picture(key: &FrameKey) -> Vec<u8> {
         comments,
         ..Metadata::default()
     };
-    let bytes = |comments| film::png::encode(1, 1, &[0; 3], &metadata(comments)).unwrap();
+    let bytes = |comments| image::png::encode(1, 1, &[0; 3], &metadata(comments)).unwrap();
     let filled = BYTES - bytes(Some(String::new())).len();
     bytes(Some(" ".repeat(filled)))
 }

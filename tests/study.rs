@@ -2,7 +2,7 @@
 #![expect(clippy::panic, reason = "helpers of tests fail the test")]
 
 use assert_cmd::Command;
-use restframe::film::compare::relative_rmse;
+use restframe::image::compare::relative_rmse;
 use restframe::render::Prepared;
 use restframe::render::{Options, render};
 use restframe::scene::Scene;

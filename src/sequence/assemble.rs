@@ -14,7 +14,7 @@ use super::sheet::{self, Sheet};
 use super::splices::Splices;
 use super::verify::verify_until;
 use super::video::{self, Video};
-use crate::film::rational_rate;
+use crate::image::rational_rate;
 use crate::queue::Stop;
 use crate::shot::Shot;
 use crate::store::{AtomicFile, FolderError, ShotFolder, Status};

@@ -1,9 +1,9 @@
 //! A finished frame as pixels, and smaller copies of it.
 
-use crate::film::decode::{self, Decoded, Fault};
+use crate::color::spaces;
+use crate::image::decode::{self, Decoded, Fault};
 use crate::render::development;
 use crate::shot::{Format, Shot};
-use crate::spectrum::color_space;
 use crate::store::ShotFolder;
 use std::path::PathBuf;
 
@@ -87,7 +87,7 @@ pub(super) fn reduce(image: &FrameImage, width: u32, height: u32) -> FrameImage 
         return image.clone();
     }
     let linear: Vec<f32> = (0..=255_u8)
-        .map(|byte| color_space::decode(f64::from(byte) / 255.0) as f32)
+        .map(|byte| spaces::decode(f64::from(byte) / 255.0) as f32)
         .collect();
     let stride = image.width as usize * 3;
     let mut rgb8 = Vec::with_capacity(width as usize * height as usize * 3);
@@ -107,7 +107,7 @@ pub(super) fn reduce(image: &FrameImage, width: u32, height: u32) -> FrameImage 
                     *sum += weight * value;
                 }
             }
-            let encode = |linear: f32| color_space::encode(f64::from(linear)) * 255.0;
+            let encode = |linear: f32| spaces::encode(f64::from(linear)) * 255.0;
             rgb8.extend(sum.map(|linear| encode(linear).round().clamp(0.0, 255.0) as u8));
         }
     }

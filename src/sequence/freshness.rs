@@ -2,7 +2,7 @@
 //! the manifest: a line for each file that was made, with a hash of all that it was made of.
 
 use super::output::Output;
-use crate::film::decode::open;
+use crate::image::decode::open;
 use crate::plan::facts;
 use crate::store::{Journal, ShotFolder, each_line};
 use rayon::prelude::*;

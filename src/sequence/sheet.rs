@@ -7,9 +7,9 @@
 use super::frame_image::{FrameImage, reduce};
 use super::output::Encoder;
 use super::splices::Splices;
-use crate::film::plot::escaped;
-use crate::film::raster;
 use crate::plan::facts;
+use crate::plot::escaped;
+use crate::plot::raster;
 use crate::shot::{LARGEST_SIDE, MOST_COLUMNS, Shot};
 use crate::store::{AtomicFile, AtomicWriter, ShotFolder};
 use std::io::{self, Write};

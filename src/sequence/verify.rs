@@ -7,7 +7,7 @@
 use super::discontinuity::{Differences, Discontinuity, Grid};
 use super::findings::{Finding, Kind, Report, Run, SINGLY, count, gaps, unknown_files};
 use super::frame_image::{decode_as, shown_extension};
-use crate::film::decode::{Fault, read_bytes};
+use crate::image::decode::{Fault, read_bytes};
 use crate::plan::FrameKey;
 use crate::queue::Stop;
 use crate::store::{FileRecord, ShotFolder, Status};

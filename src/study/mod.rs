@@ -21,8 +21,8 @@ mod sweep;
 
 pub use findings::Study;
 
-use crate::film::EncodeError;
-use crate::film::compare::CompareError;
+use crate::image::EncodeError;
+use crate::image::compare::CompareError;
 use crate::plan::{self, Called};
 use crate::render::{Options, Prepared, motion_mistake};
 use crate::scene::Scene;

@@ -4,7 +4,8 @@
 #![cfg(target_arch = "x86_64")]
 
 use super::desk::Desk;
-use restframe::film::{develop, png::to_rgb8};
+use restframe::film::develop;
+use restframe::film::to_rgb8;
 use restframe::plan::EPOCH;
 use restframe::render::{Options, development, render};
 use restframe::scene::{Library, Scene};

@@ -2,8 +2,8 @@
 
 use super::super::output::OUTPUTS;
 use super::frame_row::{Contents, Entry, FrameRow, beside, span};
-use crate::film::plot::STYLE;
-use crate::film::plot::quantity::{bytes, time};
+use crate::plot::STYLE;
+use crate::plot::quantity::{bytes, time};
 use crate::sequence::findings::{Run, count};
 use crate::store::{Record, ShotFolder};
 use indexmap::IndexMap;

@@ -2,8 +2,8 @@
 
 use super::chart::PHASES;
 use super::frame_row::{Contents, Entry, FrameRow, beside, span};
-use crate::film::plot::quantity::{NOTHING, bytes, number, time};
 use crate::plan::Facts;
+use crate::plot::quantity::{NOTHING, bytes, number, time};
 use crate::relativity::Celerity;
 use crate::store::Record;
 use maud::{Markup, html};
