@@ -3,7 +3,7 @@
 mod read;
 
 use restframe::accel::Aggregate;
-use restframe::queue::Prepared;
+use restframe::render::Prepared;
 use restframe::scene::Scene;
 use std::path::Path;
 

@@ -1,7 +1,7 @@
 //! Shots of benches, read from text.
 
 use restframe::accel::Aggregate;
-use restframe::queue::Prepared;
+use restframe::render::Prepared;
 use restframe::scene::Scene;
 use restframe::trace::build_aggregate;
 use std::path::PathBuf;

@@ -20,7 +20,7 @@ fn of_gamma(lorentz_factor: f64, direction: DVec3) -> Celerity {
     Celerity::from_lorentz_factor(lorentz_factor, direction).unwrap()
 }
 
-/// SeenLight of direction `n` in the lab as a body of celerity `u` sees it.
+/// Light of direction `n` in the lab as a body of celerity `u` sees it.
 fn seen(u: Celerity, n: DVec3) -> SeenLight {
     Boost::into_rest_of(u).light(n)
 }

@@ -2,7 +2,7 @@
 
 use super::{Changes, options, prepared, scene, together};
 use restframe::accel::Aggregate;
-use restframe::queue::Prepared;
+use restframe::render::Prepared;
 use restframe::render::{Member, Options, TogetherError, Watch, render_together};
 use restframe::scene::Scene;
 use restframe::shot::{Track, Velocity};

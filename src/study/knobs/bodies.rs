@@ -1,21 +1,21 @@
-//! Triangles of spheres.
+//! Knob: triangles of spheres.
 
 use super::Knob;
 use crate::scene::Scene;
 use crate::study::Start;
 use crate::study::displacement::displacement_of_spheres;
 use crate::study::spheres;
-use crate::study::subject::{Bodies, Variant};
+use crate::study::timed_render::{Bodies, Variant};
 use crate::trace::build_aggregate;
 use std::sync::Arc;
 
 /// Subdivisions of an icosahedron: 80 to 20480 triangles.
 const LEVELS: [u32; 5] = [1, 2, 3, 4, 5];
 const FINEST_LEVEL: u32 = 7;
-/// Of all spheres of a shot's meshes together, some 200 MB of them.
+/// Largest number of triangles of all spheres together, about 200 MB.
 const MOST_TRIANGLES: usize = 2_000_000;
 
-/// How finely the shot's spheres are made of triangles.
+/// The tessellation of the shot's spheres.
 pub(super) fn tessellation(start: &Start<'_>) -> Knob {
     let mut knob = Knob::new(
         "tessellation",
