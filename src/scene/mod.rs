@@ -1,8 +1,8 @@
-//! The scene of one image: bodies, lights, camera and background with everything resolved — no
-//! path, option, default or name is left to look up. Positions are those of each thing's own
-//! rest frame, in metres; angles are in radians.
+//! The scene of one image: bodies, lights, camera and background with everything resolved. No path,
+//! option, default or name is left to look up.
 //!
-//! In: a [`Shot`](crate::shot::Shot) and a frame number. Out: a [`Scene`].
+//! In: a shot at one frame, and its files. Out: a [`Scene`]. Positions are in the rest frame of
+//! each thing's worldline, in meters; angles are in radians.
 
 pub mod sky;
 

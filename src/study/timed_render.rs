@@ -1,0 +1,169 @@
+//! One timed render of an image, in the same way as every image is rendered, with seconds by phase.
+
+use super::StudyError;
+use crate::film::{Film, develop};
+use crate::queue::{PictureInfo, Pictures, pictures};
+use crate::render::{
+    Exposing, Options, Profile, View, development, motion_mistake, render_profiled,
+};
+use crate::scene::Scene;
+use crate::shot::Shot;
+use crate::store::{forget_peak, peak_memory_mib, write_atomically};
+use crate::trace::Stage;
+use std::path::PathBuf;
+use std::sync::Arc;
+use std::time::Instant;
+
+/// A scene and its trees, ready for rays.
+pub(super) struct Bodies {
+    pub(super) scene: Scene,
+    pub(super) stage: Stage,
+}
+
+/// The image whose variants are rendered.
+pub(super) struct Subject {
+    /// Number of the frame.
+    pub(super) frame: u32,
+    /// Exposure, stops.
+    pub(super) stops: f64,
+    /// Scratch folder; its files are written only to time writing.
+    pub(super) scratch: PathBuf,
+}
+
+impl Subject {
+    /// The subject of a shot.
+    pub(super) fn new(shot: &Shot, frame: u32, exposing: &Exposing, scratch: PathBuf) -> Self {
+        Self {
+            frame,
+            stops: exposing.stops(frame, shot.shot.frames),
+            scratch,
+        }
+    }
+}
+
+/// The image at one setting of one knob.
+#[derive(Clone)]
+pub(super) struct Variant {
+    /// Description of the setting.
+    pub(super) setting: String,
+    /// Family of settings on one curve.
+    pub(super) family: String,
+    /// The text to write into the shot.
+    pub(super) toml: Option<String>,
+    /// Whether it is the shot's own setting.
+    pub(super) current: bool,
+    pub(super) shot: Shot,
+    pub(super) bodies: Arc<Bodies>,
+    pub(super) options: Options,
+}
+
+/// Phases of an image in the order in which they happen, each with a description.
+pub(super) const PHASES: [(&str, &str); 9] = [
+    (
+        "prepare",
+        "curves, tables and links between worldlines, once an image",
+    ),
+    ("aim", "directions of the samples' rays in the camera"),
+    ("boost", "camera rays to the rest frame of each worldline"),
+    ("traverse", "camera rays through the bodies there"),
+    ("shadow", "rays from surfaces to lamps, with their boosts"),
+    (
+        "surfaces",
+        "surface events, lamps as seen from there, mirrors and glass",
+    ),
+    (
+        "shade",
+        "spectra shifted, multiplied and summed to color, and the pixel's mean",
+    ),
+    ("develop", "exposure and color"),
+    ("write", "files encoded and written to the disk"),
+];
+
+/// Index of a phase in [`PHASES`].
+pub(super) fn phase(name: &str) -> usize {
+    let place = PHASES.iter().position(|(phase, _)| *phase == name);
+    place.expect("only phases of the list are asked for")
+}
+
+/// One render of a variant.
+pub(super) struct Run {
+    /// Seconds of wall clock for the whole image.
+    pub(super) seconds: f64,
+    /// Seconds by [`PHASES`]; those that threads share are divided by the number of threads.
+    pub(super) phases: [f64; 9],
+    pub(super) memory_mib: Option<f64>,
+    pub(super) film: Film,
+    /// Extension and content of its files.
+    pub(super) files: Vec<(&'static str, Vec<u8>)>,
+}
+
+impl Variant {
+    /// The image, ready for rays.
+    pub(super) fn view(&self, subject: &Subject) -> Result<View<'_>, StudyError> {
+        let (scene, stage) = (&self.bodies.scene, &self.bodies.stage);
+        let view = View::new(&self.shot, subject.frame, &self.shot.effects, scene, stage);
+        Ok(view.map_err(|error| motion_mistake(&self.shot, &error))?)
+    }
+
+    /// Renders the variant once.
+    pub(super) fn run(&self, subject: &Subject) -> Result<Run, StudyError> {
+        let counts = forget_peak();
+        let profile = Profile::default();
+        let (scene, stage) = (&self.bodies.scene, &self.bodies.stage);
+        let begun = Instant::now();
+        let film = render_profiled(
+            &self.shot,
+            subject.frame,
+            scene,
+            stage,
+            &self.options,
+            &|_| (),
+            Some(&profile),
+        )
+        .map_err(|error| motion_mistake(&self.shot, &error))?;
+        let rendered = Instant::now();
+        let Pictures { files, .. } = pictures(
+            &self.shot,
+            subject.frame,
+            scene,
+            stage,
+            &film,
+            PictureInfo {
+                exposure_stops: subject.stops,
+                samples: self.options.samples,
+                fingerprint: None,
+            },
+        )?;
+        for (extension, bytes) in &files {
+            let name = subject.scratch.join("image").with_extension(extension);
+            write_atomically(&name, bytes)?;
+        }
+        let ended = Instant::now();
+        let memory_mib = peak_memory_mib().filter(|_| counts);
+        let seconds = profile.seconds();
+        let threads = rayon::current_num_threads() as f64;
+        // Repeated to time it alone, since it is part of making the files.
+        let again = Instant::now();
+        let developed = develop(&film, &development(&self.shot, subject.stops));
+        let developing = again.elapsed().as_secs_f64();
+        drop(developed);
+        let writing = (ended - rendered).as_secs_f64() - developing;
+        Ok(Run {
+            seconds: (ended - begun).as_secs_f64(),
+            phases: [
+                seconds.prepare,
+                seconds.aim / threads,
+                seconds.boost / threads,
+                seconds.traverse / threads,
+                seconds.shadow / threads,
+                seconds.surfaces / threads,
+                seconds.shade / threads,
+                developing,
+                writing.max(0.0),
+            ],
+            memory_mib,
+            film,
+            files,
+        })
+    }
+}
