@@ -10,7 +10,7 @@ use read::read;
 use restframe::film::{Development, Film, develop};
 use restframe::image::exr::{self, Depth};
 use restframe::image::{Metadata, png};
-use restframe::queue::Prepared;
+use restframe::render::Prepared;
 use restframe::render::{Options, development, render};
 use restframe::scene::Scene;
 use restframe::trace::Stage;

@@ -8,7 +8,8 @@ mod shell;
 use divan::Bencher;
 use rayon::prelude::*;
 use restframe::film::Film;
-use restframe::queue::{Prepared, Taken, pictures};
+use restframe::queue::{PictureInfo, pictures};
+use restframe::render::Prepared;
 use restframe::render::{Member, Options, Watch, film_bytes, render, render_together};
 use restframe::scene::Scene;
 use restframe::trace::Stage;
@@ -157,7 +158,7 @@ fn time_ramp(frames: u32) {
     let first = resolve(1, None);
     let stage = Stage::build(&first.geometry, None);
     let encode = |frame, scene: &Scene, film: &Film| {
-        let taken = Taken {
+        let taken = PictureInfo {
             exposure_stops: -9.3,
             samples: 16,
             fingerprint: None,

@@ -6,7 +6,7 @@
     reason = "a test that cannot be set up has failed"
 )]
 
-use restframe::queue::Prepared;
+use restframe::render::Prepared;
 use restframe::render::{Member, Options, View, Watch, film_bytes, render_together};
 use restframe::scene::Scene;
 use restframe::trace::Stage;

@@ -11,7 +11,7 @@ mod together;
 mod watched;
 
 use restframe::film::Film;
-use restframe::queue::Prepared;
+use restframe::render::Prepared;
 use restframe::render::{Member, Options, Together, TogetherError, Watch, render, render_together};
 use restframe::scene::Scene;
 use restframe::shot::Layer;

@@ -1,6 +1,6 @@
 //! Shots of benches, read from text.
 
-use restframe::queue::Prepared;
+use restframe::render::Prepared;
 use restframe::scene::Scene;
 use restframe::trace::Stage;
 use std::path::PathBuf;

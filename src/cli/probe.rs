@@ -3,10 +3,10 @@
 use super::{Failed, ProbeArguments, failed, mistaken, misused, print, print_json};
 use crate::plot::{Page, lay_out, svg};
 use crate::probe::{Probe, ProbeNode, effects_at, plot, probe, wide_band};
-use crate::queue::{Names, Prepared, write_atomically};
-use crate::render::{View, motion_mistake};
+use crate::render::{Prepared, View, motion_mistake};
 use crate::scene::Scene;
 use crate::shot::SensorColor;
+use crate::store::{Names, write_atomically};
 use crate::trace::Stage;
 use std::path::Path;
 

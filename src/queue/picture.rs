@@ -20,9 +20,9 @@ pub struct Pictures {
     pub warnings: Vec<String>,
 }
 
-/// How a film was taken, beside what the shot says.
+/// How a film was info, beside what the shot says.
 #[derive(Debug, Clone, Copy)]
-pub struct Taken<'a> {
+pub struct PictureInfo<'a> {
     /// Exposure, stops.
     pub exposure_stops: f64,
     /// Samples a pixel.
@@ -42,14 +42,14 @@ pub fn pictures(
     scene: &Scene,
     stage: &Stage,
     film: &Film,
-    taken: Taken<'_>,
+    info: PictureInfo<'_>,
 ) -> Result<Pictures, EncodeError> {
-    let development = development(shot, taken.exposure_stops);
+    let development = development(shot, info.exposure_stops);
     let developed = develop(film, &development);
     let metadata = Metadata {
         channels: film.channels,
         window_nm: window_nm(&shot.sensor),
-        ..metadata(shot, frame, scene, taken)
+        ..metadata(shot, frame, scene, info)
     };
     let (width, height) = (film.width, film.height);
     let mut files = Vec::new();
@@ -66,7 +66,7 @@ pub fn pictures(
                     frame,
                     scene,
                     stage,
-                    exposure: taken.exposure_stops,
+                    exposure: info.exposure_stops,
                 };
                 warnings.extend(seen.draw_insets(&mut rgb, [width, height]));
                 ("png", png::encode(width, height, &rgb, &metadata)?)
@@ -127,7 +127,7 @@ fn exr_depth(depth: Depth) -> exr::Depth {
     }
 }
 
-fn metadata(shot: &Shot, frame: u32, scene: &Scene, taken: Taken<'_>) -> Metadata {
+fn metadata(shot: &Shot, frame: u32, scene: &Scene, info: PictureInfo<'_>) -> Metadata {
     let worldline = &scene.worldlines[scene.camera.worldline];
     let camera = worldline.celerity;
     Metadata {
@@ -141,15 +141,15 @@ fn metadata(shot: &Shot, frame: u32, scene: &Scene, taken: Taken<'_>) -> Metadat
             .camera
             .camera_from_lab(worldline)
             .map(|matrix| matrix.to_cols_array()),
-        exposure_stops: Some(taken.exposure_stops),
-        samples_per_pixel: Some(taken.samples),
+        exposure_stops: Some(info.exposure_stops),
+        samples_per_pixel: Some(info.samples),
         frame: Some(frame),
         beta: Some(camera.beta().to_array()),
         lorentz_factor: Some(camera.lorentz_factor()),
         time_s: Some(shot.shot.time.at(frame, shot.shot.frames)),
         worldlines: scene.worldline_names.clone(),
-        shot: Some(still(shot, frame, taken)),
-        fingerprint: taken.fingerprint.map(str::to_owned),
+        shot: Some(still(shot, frame, info)),
+        fingerprint: info.fingerprint.map(str::to_owned),
         ..Metadata::default()
     }
 }
@@ -157,10 +157,10 @@ fn metadata(shot: &Shot, frame: u32, scene: &Scene, taken: Taken<'_>) -> Metadat
 /// The shot that this frame alone is rendered again from, beside the original: what moves stands
 /// still, what was metered or asked for is written down. The size is the shot's own, as insets name
 /// its pixels: a picture of another size is rendered by the `--scale` that gives it.
-fn still(shot: &Shot, frame: u32, taken: Taken<'_>) -> String {
+fn still(shot: &Shot, frame: u32, info: PictureInfo<'_>) -> String {
     let mut still = shot.at(frame);
-    still.sensor.exposure = Exposure::Stops(Track::Constant(taken.exposure_stops));
-    still.image.samples = taken.samples;
+    still.sensor.exposure = Exposure::Stops(Track::Constant(info.exposure_stops));
+    still.image.samples = info.samples;
     still.sequence = Sequence::default();
     still.to_toml()
 }

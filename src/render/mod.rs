@@ -14,7 +14,9 @@ mod lab_path;
 mod left_out;
 mod meter;
 mod paint;
+mod prepared;
 mod profile;
+mod shifts;
 mod together;
 mod view;
 
@@ -22,7 +24,9 @@ pub use lab_path::LabPath;
 pub use left_out::{Enough, enough_bounces};
 pub(crate) use left_out::{deeper, least};
 pub use meter::{Metered, metered_exposure, motion_mistake};
+pub use prepared::{Exposing, Prepared};
 pub use profile::{Profile, Seconds};
+pub use shifts::refuse_shifted_numbers;
 pub use together::{Member, Together, TogetherError, Watch, render_together};
 pub use view::View;
 

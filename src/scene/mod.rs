@@ -7,6 +7,7 @@
 pub mod sky;
 
 mod body;
+mod bsdf;
 mod camera;
 mod library;
 mod light;
@@ -18,10 +19,11 @@ mod surfaces;
 
 pub use crate::model::Mesh;
 pub use body::{Geometry, Instance, SurfacePoint};
+pub use bsdf::{Bsdf, Lobe, LobeKind, Reflectance};
 pub use camera::Camera;
 pub use library::Library;
 pub use light::{Light, LightShape};
-pub use material::{Curve, Highlight, Material, Reflectance, Refraction, Thermal};
+pub use material::{Curve, Material, Thermal};
 pub use projection::Projection;
 pub use resolve::Scene;
 pub use sky::Background;

@@ -1,12 +1,14 @@
 //! One timed render of an image, in the same way as every image is rendered, with seconds by phase.
 
 use super::StudyError;
-use super::memory::{forget_peak, peak_mib};
 use crate::film::{Film, develop};
-use crate::queue::{Exposing, Pictures, Taken, pictures, write_atomically};
-use crate::render::{Options, Profile, View, development, motion_mistake, render_profiled};
+use crate::queue::{PictureInfo, Pictures, pictures};
+use crate::render::{
+    Exposing, Options, Profile, View, development, motion_mistake, render_profiled,
+};
 use crate::scene::Scene;
 use crate::shot::Shot;
+use crate::store::{forget_peak, peak_memory_mib, write_atomically};
 use crate::trace::Stage;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -126,7 +128,7 @@ impl Variant {
             scene,
             stage,
             &film,
-            Taken {
+            PictureInfo {
                 exposure_stops: subject.stops,
                 samples: self.options.samples,
                 fingerprint: None,
@@ -137,7 +139,7 @@ impl Variant {
             write_atomically(&name, bytes)?;
         }
         let ended = Instant::now();
-        let memory_mib = peak_mib().filter(|_| counts);
+        let memory_mib = peak_memory_mib().filter(|_| counts);
         let seconds = profile.seconds();
         let threads = rayon::current_num_threads() as f64;
         // Repeated to time it alone, since it is part of making the files.

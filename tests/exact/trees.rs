@@ -1,7 +1,7 @@
 //! Whole shade trees: through mirrors and glass, and black bodies that move.
 
 use glam::DVec3;
-use restframe::queue::Prepared;
+use restframe::render::Prepared;
 use restframe::render::View;
 use restframe::scene::Scene;
 use restframe::shade::ShadeScratch;

@@ -4,7 +4,7 @@ use restframe::color::spaces::{RGB_FROM_XYZ, encode};
 use restframe::film::to_rgb8;
 use restframe::film::{Development, Film, develop};
 use restframe::probe::{Probe, probe};
-use restframe::queue::Prepared;
+use restframe::render::Prepared;
 use restframe::render::{Options, View, render, rows, spliced};
 use restframe::scene::Scene;
 use restframe::trace::Stage;

@@ -1,7 +1,7 @@
 //! Work that is watched: stopped, counted, and timed.
 
 use super::{Changes, options, prepared, scene, together};
-use restframe::queue::Prepared;
+use restframe::render::Prepared;
 use restframe::render::{Member, Options, TogetherError, Watch, render_together};
 use restframe::scene::Scene;
 use restframe::shot::{Track, Velocity};

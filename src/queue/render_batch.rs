@@ -1,0 +1,162 @@
+//! A batch of frames, from scenes to films: what is traced of them is traced here.
+
+use super::batch::ClaimedFrame;
+use super::job::Job;
+use super::memory::{TooLarge, check_memory};
+use super::settings::Settings;
+use crate::plan::{self, MotionError};
+use crate::progress::Progress;
+use crate::render::{
+    Exposing, Member, Prepared, Together, TogetherError, Watch, motion_mistake, render_together,
+};
+use crate::scene::Scene;
+use crate::shot::{Mistakes, Shot};
+use crate::trace::Stage;
+use std::sync::Arc;
+use std::time::Instant;
+
+/// A batch that has been rendered.
+pub(super) struct RenderedBatch {
+    /// Number of the first frame's job.
+    pub(super) first: usize,
+    /// One for each frame.
+    pub(super) scenes: Vec<Scene>,
+    pub(super) stage: Stage,
+    pub(super) together: Together,
+}
+
+/// Why a batch gave no films.
+pub(super) enum Unrendered {
+    Stopped,
+    /// This frame of the batch; the others may do.
+    Failed(usize, RenderError),
+}
+
+/// Why a frame cannot be rendered.
+#[derive(Debug, thiserror::Error)]
+pub(super) enum RenderError {
+    /// Too large for this machine.
+    #[error(transparent)]
+    Memory(#[from] TooLarge),
+    /// The shot has a mistake that shows in this frame alone.
+    #[error("{0}")]
+    Mistakes(Box<Mistakes>),
+}
+
+/// Renders a batch, which is not empty. Bodies and trees are taken over from the image that the first
+/// frame's job rendered last.
+pub(super) fn render(
+    jobs: &mut [Job],
+    batch: &[ClaimedFrame],
+    settings: &Settings<'_>,
+) -> Result<RenderedBatch, Unrendered> {
+    let begun = Instant::now();
+    for (index, ClaimedFrame { task, .. }) in batch.iter().enumerate() {
+        let job = &mut jobs[task.job];
+        meter(job, settings.progress).map_err(|m| mistaken(index, m))?;
+        check_memory(job.options()).map_err(|error| Unrendered::Failed(index, error.into()))?;
+    }
+    let first = batch[0].task.job;
+    let kept = jobs[first].kept.take();
+    let scenes = scenes(jobs, batch, kept.as_ref().map(|(scene, _)| scene))?;
+    let jobs = &*jobs;
+    let stage = stage(kept, &scenes[0], jobs[first].folder.shot());
+    let prepare = begun.elapsed().as_secs_f64();
+    let member = |(claimed, scene)| {
+        let ClaimedFrame { task, .. }: &ClaimedFrame = claimed;
+        let (shot, frame) = (jobs[task.job].folder.shot(), task.frame);
+        Member { shot, frame, scene }
+    };
+    let members: Vec<Member<'_>> = batch.iter().zip(&scenes).map(member).collect();
+    let options = jobs[first].options();
+    let rays = f64::from(options.width) * f64::from(options.height) * f64::from(options.samples);
+    let work: f64 = batch.iter().map(|claimed| claimed.task.work).sum();
+    let work_per_ray = work / (rays * batch.len() as f64);
+    let watch = Watch {
+        done: &|rays| settings.progress.advance(rays as f64 * work_per_ray),
+        stop: settings.stop,
+    };
+    let rendered = render_together(&members, &stage, options, watch);
+    let mut together = rendered.map_err(|error| match error {
+        TogetherError::Stopped => Unrendered::Stopped,
+        TogetherError::Motion(error) => astray(&members, &error),
+    })?;
+    together.prepare += prepare;
+    Ok(RenderedBatch {
+        first,
+        scenes,
+        stage,
+        together,
+    })
+}
+
+/// Finds a shot's exposure, once.
+fn meter(job: &mut Job, progress: &Progress<'_>) -> Result<(), Mistakes> {
+    let (None, Some(prepared)) = (&job.exposing, &job.prepared) else {
+        return Ok(());
+    };
+    let (exposing, kept) = prepared.exposure()?;
+    if matches!(exposing, Exposing::Black) {
+        let path = prepared.shot.path.display();
+        progress.warn(&format!(
+            "{path}: frame 1 is black, so exposure is 0 stops; give sensor.exposure"
+        ));
+    }
+    job.exposing = Some(exposing);
+    job.kept = kept;
+    Ok(())
+}
+
+/// The scenes of a batch; bodies are taken over from the last one of the same shot, first from
+/// `kept`, which is of the first frame's.
+fn scenes(
+    jobs: &[Job],
+    batch: &[ClaimedFrame],
+    kept: Option<&Scene>,
+) -> Result<Vec<Scene>, Unrendered> {
+    let mut scenes: Vec<Scene> = Vec::with_capacity(batch.len());
+    for (index, claimed) in batch.iter().enumerate() {
+        let number = claimed.task.job;
+        let prepared = prepared(&jobs[number]);
+        let last = (0..index).rev().find(|&i| batch[i].task.job == number);
+        let kept = kept.filter(|_| number == batch[0].task.job);
+        let earlier = last.map(|last| &scenes[last]).or(kept);
+        let scene = Scene::resolve(
+            &prepared.shot,
+            &prepared.library,
+            claimed.task.frame,
+            earlier,
+        );
+        scenes.push(scene.map_err(|m| mistaken(index, m))?);
+    }
+    Ok(scenes)
+}
+
+/// Bodies taken over from the last image where they stand as they stood, trees where they can be.
+fn stage(kept: Option<(Scene, Stage)>, scene: &Scene, shot: &Shot) -> Stage {
+    match kept {
+        Some((old, stage)) if Arc::ptr_eq(&old.geometry, &scene.geometry) => stage,
+        other => Stage::with_precision(
+            &scene.geometry,
+            other.as_ref().map(|(_, stage)| stage),
+            shot.accuracy.tracing,
+        ),
+    }
+}
+
+/// The member that a worldline without velocity is of: others may have one of its name.
+fn astray(members: &[Member<'_>], error: &MotionError) -> Unrendered {
+    let fails =
+        |member: &Member<'_>| plan::celerity(member.shot, &error.worldline, member.frame).is_err();
+    let index = members.iter().position(fails).unwrap_or(0);
+    mistaken(index, motion_mistake(members[index].shot, error))
+}
+
+fn mistaken(index: usize, mistakes: Mistakes) -> Unrendered {
+    Unrendered::Failed(index, RenderError::Mistakes(Box::new(mistakes)))
+}
+
+fn prepared(job: &Job) -> &Prepared {
+    let prepared = job.prepared.as_ref();
+    prepared.expect("a shot with frames to be rendered is prepared first")
+}
