@@ -7,8 +7,8 @@ mod read;
 
 use divan::{Bencher, black_box, counter::ItemsCount};
 use read::read;
-use restframe::image::exr::{self, Depth};
 use restframe::film::{Development, Film, develop};
+use restframe::image::exr::{self, Depth};
 use restframe::image::{Metadata, png};
 use restframe::render::Prepared;
 use restframe::render::{Options, development, render};
