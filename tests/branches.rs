@@ -1,10 +1,5 @@
 //! Mirrors and glass as an author sets them: how deep, how faint, what is left out, and that short
 //! cuts change nothing.
-#![expect(
-    clippy::unwrap_used,
-    reason = "a test that cannot be set up has failed"
-)]
-
 use restframe::film::{Film, SILENT};
 use restframe::probe::{Probe, probe};
 use restframe::queue::Prepared;

@@ -1,12 +1,6 @@
 //! The command as its users call it: what is written where, what is said, and how it ends.
 //!
-//! `INSTA_UPDATE=always cargo test --test cli` renews the snapshots in `tests/snapshots`.
-
-#![expect(
-    clippy::unwrap_used,
-    clippy::panic,
-    reason = "helpers of tests fail the test"
-)]
+//! `INSTA_UPDATE=always cargo test --test suite cli::` renews the snapshots in `tests/snapshots`.
 
 use assert_cmd::Command;
 use serde_json::Value;

@@ -1,9 +1,4 @@
 //! Names of files as other systems and people write them: each is read, or answered with what to write.
-#![expect(
-    clippy::unwrap_used,
-    reason = "a test that cannot be set up has failed"
-)]
-
 use restframe::queue::Prepared;
 use restframe::shot::{Mistakes, load};
 use std::fs;

@@ -1,10 +1,5 @@
 //! Shots of a million frames: what is done about them goes by what is there and what is asked for, not
 //! by what could be. Bytes, rows and frames are counted; no time is measured.
-#![expect(
-    clippy::unwrap_used,
-    reason = "a test that cannot be set up has failed"
-)]
-
 use serde_json::Value;
 use std::fs;
 use std::io::{BufRead, BufReader};

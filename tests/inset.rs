@@ -4,8 +4,6 @@
 //! Plots are read as a reader does: the white field between the axes is found, its edges are the ends
 //! of the axes, and a curve is where its colour is.
 
-#![expect(clippy::unwrap_used, reason = "helpers of tests fail the test")]
-
 use assert_cmd::Command;
 use image::{Rgb32FImage, RgbImage};
 use serde_json::Value;

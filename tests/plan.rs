@@ -1,10 +1,5 @@
 //! `restframe plan` as its users call it: effects, reasons, traces, what is there, and what is left.
 
-#![expect(
-    clippy::unwrap_used,
-    reason = "a test that cannot be set up has failed"
-)]
-
 use assert_cmd::Command;
 use restframe::film::{self, Metadata};
 use restframe::plan::FrameKey;

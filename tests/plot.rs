@@ -1,8 +1,6 @@
 //! `restframe probe --plot`: what a reader of the plot measures with its ticks is what the probe
 //! says, and what Planck's law says.
 
-#![expect(clippy::unwrap_used, reason = "helpers of tests fail the test")]
-
 use assert_cmd::Command;
 use roxmltree::{Document, Node};
 use serde_json::Value;

@@ -4,12 +4,6 @@
 //!
 //! The answers are asked of `probe` and of the image's own short cuts, with spectra baked and not.
 
-#![expect(
-    clippy::unwrap_used,
-    clippy::panic,
-    reason = "what cannot be read or resolved fails the test, and says which"
-)]
-
 use std::path::{Path, PathBuf};
 
 use rayon::prelude::*;

@@ -2,17 +2,8 @@
 //! what they show where they look nowhere. `b9` and `d12` of the hard cases hold whole pictures
 //! of them against closed forms.
 
-#![expect(
-    clippy::unwrap_used,
-    clippy::panic,
-    reason = "helpers of tests fail the test"
-)]
-
-#[path = "hard_cases/scene.rs"]
-mod scene;
-
+use crate::hard_cases::scene::Set;
 use assert_cmd::Command;
-use scene::Set;
 
 /// Between two ways to one direction, which differ by rounding.
 const ROUNDING: f64 = 1e-12;

@@ -1,9 +1,4 @@
 //! Frames of one sequence: each is the same picture alone and after its neighbours.
-#![expect(
-    clippy::unwrap_used,
-    reason = "a test that cannot be set up has failed"
-)]
-
 use restframe::queue::{Force, FrameList, Job, Mode, Night, Progress, Request, Results};
 use std::fs;
 use std::path::Path;

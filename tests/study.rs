@@ -1,6 +1,4 @@
 //! `restframe study`: its figures against renders made here, and what must hold in every report.
-#![expect(clippy::panic, reason = "helpers of tests fail the test")]
-
 use assert_cmd::Command;
 use restframe::film::compare::relative_rmse;
 use restframe::queue::Prepared;

@@ -1,21 +1,9 @@
 //! Rays and triangles in f32 (`accuracy.tracing = "f32"`): as exact as f32 is where it can be, and
 //! wrong where a renderer in f32 is wrong, which f64 is not. Displacements are in pixels.
 
-#![expect(
-    clippy::unwrap_used,
-    clippy::panic,
-    reason = "helpers of tests fail the test"
-)]
-
-#[path = "hard_cases/eye.rs"]
-#[expect(dead_code, reason = "other tests need the rest")]
-mod eye;
-#[path = "hard_cases/scene.rs"]
-#[expect(dead_code, reason = "other tests need the rest")]
-mod scene;
-
+use crate::hard_cases::eye::{Dice, triangles};
+use crate::hard_cases::scene::Set;
 use assert_cmd::Command;
-use eye::{Dice, triangles};
 use glam::DVec3;
 use restframe::film::Film;
 use restframe::render::{Options, View, render};
@@ -23,7 +11,6 @@ use restframe::scene::Geometry;
 use restframe::shot::Precision::{self, F32, F64};
 use restframe::study::displacement::{Displacement, displacement};
 use restframe::trace::{BodyHit, RestRay, Stage};
-use scene::Set;
 
 /// Half of the distance of two numbers at 1.
 const ROUNDING: f64 = f32::EPSILON as f64 / 2.0;

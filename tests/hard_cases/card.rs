@@ -93,14 +93,14 @@ impl Card {
 /// Cases of one section: each a test, and an entry of `CASES`.
 macro_rules! cases {
     ($($(#[$doc:meta])* fn $name:ident($card:ident) $body:block)*) => {
-        $($(#[$doc])* fn $name($card: &mut crate::card::Card) $body)*
+        $($(#[$doc])* fn $name($card: &mut crate::hard_cases::card::Card) $body)*
 
-        pub(crate) const CASES: &[crate::card::Case] = &[$((stringify!($name), $name)),*];
+        pub(crate) const CASES: &[super::card::Case] = &[$((stringify!($name), $name)),*];
 
         mod tests {
             $(#[test]
             fn $name() {
-                let mut card = crate::card::Card::default();
+                let mut card = crate::hard_cases::card::Card::default();
                 super::$name(&mut card);
                 card.passes();
             })*
