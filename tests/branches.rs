@@ -1,5 +1,6 @@
 //! Mirrors and glass as an author sets them: how deep, how faint, what is left out, and that short
 //! cuts change nothing.
+use crate::common::WALL;
 use restframe::film::{Film, SILENT};
 use restframe::probe::{Probe, probe};
 use restframe::queue::Prepared;
@@ -7,8 +8,6 @@ use restframe::render::{Enough, Member, Options, View, enough_bounces, render, r
 use restframe::scene::Scene;
 use restframe::trace::Stage;
 use std::path::Path;
-
-const WALL: &str = "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nf 1 2 3 4\n";
 
 /// What a pixel of a 9 x 9 image sees; `text` is the rest of the shot.
 fn sees(text: &str, pixel: [u32; 2]) -> Probe {

@@ -1,7 +1,6 @@
 //! All tests of the program from outside, as one binary, so that the library is linked once.
 //!
-//! Each module is a subject; `cargo test --test suite sky::` runs one of them. Tests that read the
-//! memory of their own process stand alone, in `tests/shared_memory.rs`.
+//! Each module is a subject; `cargo test --test suite sky::` runs one of them.
 
 #![expect(
     clippy::unwrap_used,
@@ -13,6 +12,7 @@ mod accuracy;
 mod bad_shots;
 mod branches;
 mod cli;
+mod common;
 mod drive_by;
 mod exact;
 mod figure_1;
@@ -39,6 +39,8 @@ mod properties;
 mod reference;
 mod sequence;
 mod shading;
+#[cfg(target_os = "linux")]
+mod shared_memory;
 mod shared_traces;
 mod sky;
 mod spheres;
