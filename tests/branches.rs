@@ -1,6 +1,7 @@
 //! Mirrors and glass as an author sets them: how deep, how faint, what is left out, and that short
 //! cuts change nothing.
 use crate::common::WALL;
+use base64::prelude::{BASE64_STANDARD, Engine};
 use restframe::film::{Film, SILENT};
 use restframe::probe::{Probe, probe};
 use restframe::queue::Prepared;
@@ -63,7 +64,7 @@ fn one_sided_ball() -> String {
         .iter()
         .flatten()
         .for_each(|i| bytes.extend(i.to_le_bytes()));
-    let data = base64::encode(&bytes);
+    let data = BASE64_STANDARD.encode(&bytes);
     format!(
         r#"{{"asset":{{"version":"2.0"}},"scene":0,"scenes":[{{"nodes":[0]}}],"nodes":[{{"mesh":0}}],
         "meshes":[{{"primitives":[{{"attributes":{{"POSITION":0}},"indices":1,"material":0}}]}}],

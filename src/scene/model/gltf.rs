@@ -18,8 +18,8 @@ mod primitive;
 
 use super::{Model, ModelError, Warning};
 use crate::shot::ModelFiles;
-use ::gltf::json::{Index, Root};
 use buffers::Buffers;
+use gltf_json::{Index, Root};
 use indexmap::IndexSet;
 use serde_json::Value;
 use std::cell::Cell;

@@ -7,10 +7,10 @@
 use super::super::ModelError;
 use super::extensions::unsupported;
 use super::{MAX_ELEMENTS, Source};
-use ::gltf::json::accessor::{Accessor, ComponentType, Type, sparse::Sparse};
-use ::gltf::json::buffer::View;
-use ::gltf::json::validation::Checked;
-use ::gltf::json::{Index, validation::USize64};
+use gltf_json::accessor::{Accessor, ComponentType, Type, sparse::Sparse};
+use gltf_json::buffer::View;
+use gltf_json::validation::Checked;
+use gltf_json::{Index, validation::USize64};
 
 /// Elements of an accessor of zeros at most, which cost the file no bytes.
 const MAX_ZEROS: u64 = 1 << 22;

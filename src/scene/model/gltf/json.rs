@@ -3,7 +3,7 @@
 use super::super::{ModelError, Warning};
 use super::extensions;
 use crate::shot::{GltfJson, TextFault};
-use ::gltf::json::Root;
+use gltf_json::Root;
 use serde_json::{Map, Value, json};
 use std::path::Path;
 

@@ -5,9 +5,9 @@
 
 use super::super::{LUMENS_PER_WATT, Model, ModelError, ModelMaterial, Warning};
 use super::{Source, name_of};
-use ::gltf::json::Material;
-use ::gltf::json::material::AlphaMode;
-use ::gltf::json::validation::Checked;
+use gltf_json::Material;
+use gltf_json::material::AlphaMode;
+use gltf_json::validation::Checked;
 use serde_json::Value;
 
 /// What `asset.generator` says of Blender's exporter, perhaps after the name of an add-on.

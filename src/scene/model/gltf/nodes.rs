@@ -9,8 +9,8 @@ use super::super::{Model, ModelError, Placement, Warning};
 use super::flat::{Extent, Pose};
 use super::{Source, name_of};
 use ::glam::{DAffine3, DMat3, DMat4, DQuat, DVec3};
-use ::gltf::json::Index;
-use ::gltf::json::accessor::{Accessor, ComponentType};
+use gltf_json::Index;
+use gltf_json::accessor::{Accessor, ComponentType};
 use serde_json::Value;
 use std::collections::HashMap;
 

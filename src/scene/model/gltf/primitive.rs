@@ -5,10 +5,10 @@ use super::super::{Mesh, Model, ModelError, Warning};
 use super::extensions::unsupported;
 use super::{Source, name_of};
 use ::glam::DVec3;
-use ::gltf::json::Index;
-use ::gltf::json::accessor::{Accessor, ComponentType};
-use ::gltf::json::mesh::{Mode, Primitive, Semantic};
-use ::gltf::json::validation::Checked;
+use gltf_json::Index;
+use gltf_json::accessor::{Accessor, ComponentType};
+use gltf_json::mesh::{Mode, Primitive, Semantic};
+use gltf_json::validation::Checked;
 
 impl Source<'_> {
     /// Reads one mesh of the file; gives the indices of the meshes it has become.
