@@ -8,7 +8,7 @@
 //!
 //! `RESTFRAME_FIGURE=write cargo test --test suite figure_1::` (scripts/figure-1) renews the figure.
 
-use restframe::film::plot::{Axis, Color, Page, Panel, Plot, Scale, Series, Stroke, lay_out, svg};
+use restframe::plot::{Axis, Color, Page, Panel, Plot, Scale, Series, Stroke, lay_out, svg};
 use restframe::probe::{Probe, probe};
 use restframe::queue::Prepared;
 use restframe::render::View;

@@ -1,10 +1,10 @@
 //! Curves that are narrower than the wavelengths are apart keep their light, whatever meets them
 //! and under any shift: against `accuracy.spectra = "exact"`, and in closed form.
+use restframe::color::cie::{EFFICACY, xyz_bar};
 use restframe::plan;
 use restframe::scene::{Curve, Library, Material, Reflectance, Scene, Thermal};
 use restframe::shade::{Settings, ShadeScratch, Shader};
 use restframe::shot::{self, Accuracy, Shot, Spectra};
-use restframe::spectrum::cie::{EFFICACY, xyz_bar};
 use restframe::spectrum::{Beyond, Cardinal, Sampled, Spectrum, illuminant};
 use restframe::trace::{BodyHit, Branch, Lit, Node, Root, Seen, ShadeTrees, Surface, Term};
 use std::f64::consts::TAU;
@@ -530,7 +530,7 @@ fn the_stated_bound_covers_lines() {
                     "emissivity" => glow,
                     _ => lamp,
                 };
-                let white = restframe::spectrum::cie::xyz_of(|_| peak * doppler.powi(5));
+                let white = restframe::color::cie::xyz_of(|_| peak * doppler.powi(5));
                 for c in 0..3 {
                     let error = (found[c] - exact[c]).abs() / white[c];
                     assert!(

@@ -2,7 +2,8 @@
 
 use crate::common::WALL;
 use crate::common::desk::{Desk, Outcome};
-use restframe::film::{self, Metadata};
+use restframe::image;
+use restframe::image::Metadata;
 use restframe::plan::FrameKey;
 use restframe::queue::{Costs, FrameList, Names, Reel, Request};
 use restframe::shot;
@@ -86,7 +87,7 @@ fn picture(key: &FrameKey) -> Vec<u8> {
         comments,
         ..Metadata::default()
     };
-    let bytes = |comments| film::png::encode(1, 1, &[0; 3], &metadata(comments)).unwrap();
+    let bytes = |comments| image::png::encode(1, 1, &[0; 3], &metadata(comments)).unwrap();
     let filled = BYTES - bytes(Some(String::new())).len();
     bytes(Some(" ".repeat(filled)))
 }

@@ -4,9 +4,10 @@
 use crate::hard_cases::eye::{Eye, sphere, triangles};
 use crate::hard_cases::scene::Set;
 use glam::DVec3;
+use restframe::model::Mesh;
+use restframe::model::{Model, load};
 use restframe::render::View;
-use restframe::scene::model::{Model, load};
-use restframe::scene::{Geometry, Instance, Mesh, Scene};
+use restframe::scene::{Geometry, Instance, Scene};
 use restframe::study::displacement::{Displacement, displacement_of_spheres};
 use restframe::study::spheres::{Sphere, spheres, tessellated};
 use restframe::trace::Stage;

@@ -1,6 +1,6 @@
 //! `restframe study`: its figures against renders made here, and what must hold in every report.
 use crate::common::desk::{Desk, Outcome};
-use restframe::film::compare::relative_rmse;
+use restframe::image::compare::relative_rmse;
 use restframe::queue::Prepared;
 use restframe::render::{Options, render};
 use restframe::scene::Scene;

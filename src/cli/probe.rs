@@ -1,7 +1,7 @@
 //! `restframe probe`.
 
 use super::{Failed, ProbeArguments, failed, mistaken, misused, print, print_json};
-use crate::film::plot::{Page, lay_out, svg};
+use crate::plot::{Page, lay_out, svg};
 use crate::probe::{Probe, ProbeNode, effects_at, plot, probe, wide_band};
 use crate::queue::{Names, Prepared, write_atomically};
 use crate::render::{View, motion_mistake};

@@ -2,7 +2,7 @@
 
 use super::effects::is_black;
 use super::motion::{MotionError, celerity};
-use crate::film::plot::quantity::without_zeros;
+use crate::plot::quantity::without_zeros;
 use crate::relativity::Celerity;
 use crate::shot::{Shot, Switch};
 

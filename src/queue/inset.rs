@@ -1,7 +1,7 @@
 //! Plots of single pixels, drawn into a frame's picture.
 
-use crate::film::plot::{LEAST_INSET, lay_out_inset, svg};
-use crate::film::raster;
+use crate::plot::raster;
+use crate::plot::{LEAST_INSET, lay_out_inset, svg};
 use crate::probe;
 use crate::render::{View, motion_mistake};
 use crate::scene::Scene;

@@ -1,7 +1,8 @@
 //! A film to the files of one frame, as bytes.
 
 use super::inset::Seen;
-use crate::film::{self, EncodeError, Film, Metadata, SILENT, develop, exr};
+use crate::film::{self, Film, SILENT, develop};
+use crate::image::{EncodeError, Metadata, SOFTWARE, exr, png};
 use crate::render::{Enough, Member, development, enough_bounces};
 use crate::scene::Scene;
 use crate::shot::{Depth, Exposure, Format, Sensor, Sequence, Shot, Track};
@@ -59,7 +60,7 @@ pub fn pictures(
     for format in &shot.output.formats {
         files.push(match format {
             Format::Png => {
-                let mut rgb = film::png::to_rgb8(&developed, development.encode);
+                let mut rgb = film::to_rgb8(&developed, development.encode);
                 let seen = Seen {
                     shot,
                     frame,
@@ -68,7 +69,7 @@ pub fn pictures(
                     exposure: taken.exposure_stops,
                 };
                 warnings.extend(seen.draw_insets(&mut rgb, [width, height]));
-                ("png", film::png::encode(width, height, &rgb, &metadata)?)
+                ("png", png::encode(width, height, &rgb, &metadata)?)
             }
             Format::Exr => {
                 let depth = exr_depth(shot.output.depth);
@@ -130,7 +131,7 @@ fn metadata(shot: &Shot, frame: u32, scene: &Scene, taken: Taken<'_>) -> Metadat
     let worldline = &scene.worldlines[scene.camera.worldline];
     let camera = worldline.celerity;
     Metadata {
-        software: Some(film::SOFTWARE.to_owned()),
+        software: Some(SOFTWARE.to_owned()),
         comments: shot.shot.title.clone(),
         frames_per_second: Some(shot.shot.fps),
         // Camera space is the same for every projection. What describes a perspective alone is not

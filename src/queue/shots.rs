@@ -2,7 +2,7 @@
 
 use super::frames::FrameList;
 use super::shifts::refuse_shifted_numbers;
-use crate::film::EncodeError;
+use crate::image::EncodeError;
 use crate::plan;
 use crate::render::{Options, metered_exposure};
 use crate::scene::{Library, Scene};

@@ -1,10 +1,10 @@
 //! The renderer on one page: plan, trace, shade, film.
 
+use crate::color::spaces;
 use crate::film::{Channels, Development, Film};
 use crate::plan::MotionError;
 use crate::scene::Scene;
 use crate::shot::{Effects, Layer, SensorColor, Shot, Splice};
-use crate::spectrum::color_space;
 use crate::trace::Stage;
 use std::ops::Range;
 
@@ -98,11 +98,11 @@ pub fn development(shot: &Shot, exposure_stops: f64) -> Development {
     const IDENTITY: [[f64; 3]; 3] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
     Development {
         rgb_from_xyz: match channels(shot) {
-            Channels::Xyz => color_space::RGB_FROM_XYZ,
+            Channels::Xyz => spaces::RGB_FROM_XYZ,
             Channels::Bands => IDENTITY,
         },
         exposure_stops,
-        encode: color_space::encode,
+        encode: spaces::encode,
     }
 }
 

@@ -1,7 +1,7 @@
 //! Bodies: meshes, and where their instances stand in the rest frames of worldlines.
 
 use super::library::Library;
-use super::model::Mesh;
+use crate::model::Mesh;
 use crate::shot::{Array, Model, Scale, Shot};
 use glam::{DAffine3, DMat3, DQuat, DVec3, EulerRot, Vec3};
 use std::sync::Arc;

@@ -1,9 +1,10 @@
 //! Lamps, each at rest in a worldline of its own.
 
-use super::model::{LUMENS_PER_WATT, Lamp, LampKind};
 use super::spectra::Spectra;
+use crate::model::{LUMENS_PER_WATT, Lamp, LampKind};
 use crate::shot::{self, LightKind, LightUnits, SpectrumValue};
-use crate::spectrum::{Spectrum, SpectrumError, cie};
+use crate::spectrum::luminous_integral;
+use crate::spectrum::{Spectrum, SpectrumError};
 use glam::{DAffine3, DVec3};
 use std::f64::consts::PI;
 use std::sync::Arc;
@@ -108,7 +109,7 @@ impl Light {
         let scale = match (&light.scale, &light.intensity) {
             (Some(scale), _) => spectra.at(scale),
             (None, intensity) => {
-                let lumens = cie::luminous_integral(&spectrum);
+                let lumens = luminous_integral(&spectrum);
                 let intensity = intensity.as_ref().map_or(0.0, |i| spectra.at(i));
                 if !(lumens > 0.0 && (intensity / lumens).is_finite()) {
                     return Err(LightError::Dark);

@@ -1,7 +1,7 @@
 //! What surfaces do with light, in their rest frame.
 
-use super::model::ModelMaterial;
 use super::spectra::Spectra;
+use crate::model::ModelMaterial;
 use crate::shot;
 use crate::spectrum::{Spectrum, SpectrumError};
 use std::sync::Arc;

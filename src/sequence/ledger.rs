@@ -2,7 +2,7 @@
 //! right is not made again. STEM.sequence.jsonl, beside the manifest.
 
 use super::output::Output;
-use crate::film::decode::open;
+use crate::image::decode::open;
 use crate::plan::facts;
 use crate::queue::{Reel, open_plain};
 use rayon::prelude::*;

@@ -9,7 +9,7 @@ use super::gaps::{Run, SINGLY, count, gaps};
 use super::orphans::orphans;
 use super::outlier::{Differences, Grid, Outlier};
 use super::still::{decode_as, shown_extension};
-use crate::film::decode::{Fault, read_bytes};
+use crate::image::decode::{Fault, read_bytes};
 use crate::plan::FrameKey;
 use crate::queue::{FileRecord, Reel, Status, Stop};
 use rayon::prelude::*;

@@ -22,8 +22,8 @@ mod sweep;
 
 pub use findings::Study;
 
-use crate::film::EncodeError;
-use crate::film::compare::CompareError;
+use crate::image::EncodeError;
+use crate::image::compare::CompareError;
 use crate::plan::{self, Called};
 use crate::queue::{Names, Prepared};
 use crate::render::{Options, motion_mistake};

@@ -5,7 +5,8 @@
 
 use super::desk::house;
 use crate::common::desk::Desk;
-use restframe::film::{develop, png::to_rgb8};
+use restframe::film::develop;
+use restframe::film::to_rgb8;
 use restframe::plan::EPOCH;
 use restframe::render::{Options, development, render};
 use restframe::scene::{Library, Scene};

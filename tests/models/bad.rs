@@ -2,7 +2,7 @@
 
 use super::blender::here;
 use base64::prelude::{BASE64_STANDARD, Engine};
-use restframe::scene::model::{ModelError, load};
+use restframe::model::{ModelError, load};
 use restframe::shot::FileError;
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};

@@ -1,8 +1,8 @@
 //! Surfaces to which a file gives no material.
 
 use super::bad::{triangle, write};
+use restframe::model::Warning;
 use restframe::queue::Prepared;
-use restframe::scene::model::Warning;
 use restframe::scene::{Material, Scene};
 use restframe::shot::Mistakes;
 use serde_json::{Value, json};
