@@ -1,5 +1,7 @@
-//! What surfaces do with light, in their rest frame.
+//! Materials: the lobes of a surface and its own light, made from the model file's material with the
+//! shot's laid over it. All spectra are those of the surface's rest frame.
 
+use super::bsdf::{Bsdf, Lobe, LobeKind, Reflectance};
 use super::spectra::Spectra;
 use crate::model::ModelMaterial;
 use crate::shot;
@@ -11,57 +13,17 @@ const EXPONENT: f64 = 40.0;
 /// Index of refraction where its author gave none: of common glass.
 const IOR: f64 = 1.5;
 
-/// A surface: the sum of its terms, each None where it has none.
+/// A surface: what it reflects and transmits, and its own light.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Material {
     /// Name, as the shot or the model file has it.
     pub name: String,
-    /// Lambertian: L = ρE/π.
-    pub diffuse: Option<Reflectance>,
-    /// Blinn–Phong highlight.
-    pub highlight: Option<Highlight>,
-    /// Ideal reflection.
-    pub mirror: Option<Reflectance>,
-    /// Ideal refraction.
-    pub refraction: Option<Refraction>,
+    /// Reflection and transmission.
+    pub bsdf: Bsdf,
     /// Cold light of its own: spectral radiance scale × spectrum, W·m⁻²·sr⁻¹·nm⁻¹.
     pub emission: Option<Reflectance>,
     /// Thermal light of its own.
     pub thermal: Option<Thermal>,
-}
-
-/// weight × spectrum.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Reflectance {
-    /// Factor, at least 0.
-    pub weight: f64,
-    /// Shape.
-    pub spectrum: Arc<Spectrum>,
-}
-
-impl Reflectance {
-    /// The largest share of light that it lets go on, at any wavelength.
-    pub fn most(&self) -> f64 {
-        (self.weight * self.spectrum.peak()).min(1.0)
-    }
-}
-
-/// A highlight: weight × spectrum × (n+8)/(8π) × (N·H)ⁿ is added to the BRDF.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Highlight {
-    /// weight × spectrum.
-    pub reflectance: Reflectance,
-    /// n, at least 0.
-    pub exponent: f64,
-}
-
-/// Ideal refraction at a boundary: outside, where triangles show their front, is vacuum.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Refraction {
-    /// weight × spectrum, of what passes the boundary.
-    pub transmittance: Reflectance,
-    /// Index of refraction inside, at least 1.
-    pub ior: f64,
 }
 
 /// Thermal light: emissivity × a black body's curve.
@@ -136,7 +98,10 @@ impl Material {
         };
         let is_some = |rgb: [f64; 3]| rgb.iter().any(|&c| c > 0.0);
         if is_some(file.base_color) {
-            made.diffuse = Some(term(Spectra::color(file.base_color)?));
+            made.bsdf = Bsdf::new(vec![Lobe {
+                kind: LobeKind::Diffuse,
+                reflectance: term(Spectra::color(file.base_color)?),
+            }]);
         }
         if is_some(file.emissive) {
             // By its hue, so that the curve's shape does not change with its strength.
@@ -157,11 +122,11 @@ impl Material {
     ) -> Result<Self, MaterialError> {
         if let Some(term) = &shot.diffuse {
             let over = Over {
-                term: "diffuse",
+                term: LobeKind::Diffuse.key(),
                 weight: &term.weight,
                 spectrum: &term.spectrum,
             };
-            self.diffuse = Some(over.reflectance(self.diffuse, spectra)?);
+            self = self.with(over, |_| LobeKind::Diffuse, spectra)?;
         }
         if let Some(term) = &shot.emission {
             let over = Over {
@@ -172,41 +137,42 @@ impl Material {
             self.emission = Some(over.lay(self.emission, spectra)?);
         }
         if let Some(term) = &shot.highlight {
-            let exponent = term.exponent.as_ref().map(|e| spectra.at(e));
-            let below = self.highlight.take();
-            let kept = below.as_ref().map_or(EXPONENT, |h| h.exponent);
             let over = Over {
                 term: "highlight",
                 weight: &term.weight,
                 spectrum: &term.spectrum,
             };
-            let reflectance = over.reflectance(below.map(|h| h.reflectance), spectra)?;
-            self.highlight = Some(Highlight {
-                reflectance,
-                exponent: exponent.unwrap_or(kept),
-            });
+            let kind = |below| match (&term.exponent, below) {
+                (Some(exponent), _) => LobeKind::Highlight {
+                    exponent: spectra.at(exponent),
+                },
+                (None, Some(kept)) => kept,
+                (None, None) => LobeKind::Highlight { exponent: EXPONENT },
+            };
+            self = self.with(over, kind, spectra)?;
         }
         if let Some(term) = &shot.mirror {
             let over = Over {
-                term: "mirror",
+                term: LobeKind::Mirror.key(),
                 weight: &term.weight,
                 spectrum: &term.spectrum,
             };
-            self.mirror = Some(over.reflectance(self.mirror, spectra)?);
+            self = self.with(over, |_| LobeKind::Mirror, spectra)?;
         }
         if let Some(term) = &shot.refraction {
-            let ior = term.ior.as_ref().map(|ior| spectra.at(ior));
-            let below = self.refraction.take();
-            let kept = below.as_ref().map_or(IOR, |r| r.ior);
             let over = Over {
                 term: "refraction",
                 weight: &term.weight,
                 spectrum: &term.spectrum,
             };
-            self.refraction = Some(Refraction {
-                transmittance: over.reflectance(below.map(|r| r.transmittance), spectra)?,
-                ior: ior.unwrap_or(kept),
-            });
+            let kind = |below| match (&term.ior, below) {
+                (Some(ior), _) => LobeKind::Refraction {
+                    ior: spectra.at(ior),
+                },
+                (None, Some(kept)) => kept,
+                (None, None) => LobeKind::Refraction { ior: IOR },
+            };
+            self = self.with(over, kind, spectra)?;
         }
         if let Some(term) = &shot.thermal {
             self.thermal = thermal(term, spectra)?;
@@ -214,28 +180,36 @@ impl Material {
         Ok(self)
     }
 
-    /// The same without terms that contribute nothing.
+    /// The lobe of a key of the shot over the one that stands there. `kind` makes its geometry of that
+    /// one's.
+    fn with(
+        mut self,
+        over: Over<'_>,
+        kind: impl FnOnce(Option<LobeKind>) -> LobeKind,
+        spectra: &Spectra<'_>,
+    ) -> Result<Self, MaterialError> {
+        let below = self.bsdf.of_key(over.term).cloned();
+        let kind = kind(below.as_ref().map(|lobe| lobe.kind));
+        let reflectance = over.reflectance(below.map(|lobe| lobe.reflectance), spectra)?;
+        self.bsdf = self.bsdf.with(Lobe { kind, reflectance });
+        Ok(self)
+    }
+
+    /// The same without lobes and light that contribute nothing.
     pub(super) fn pruned(mut self) -> Self {
-        let seen = |r: &Reflectance| r.weight > 0.0 && *r.spectrum != Spectrum::Constant(0.0);
-        self.diffuse = self.diffuse.filter(seen);
-        self.emission = self.emission.filter(seen);
-        self.highlight = self.highlight.filter(|h| seen(&h.reflectance));
-        self.mirror = self.mirror.filter(seen);
-        // Without transmittance it is still a boundary, which gives a mirror its share.
-        self.refraction = self
-            .refraction
-            .filter(|r| self.mirror.is_some() || seen(&r.transmittance));
+        self.bsdf = self.bsdf.pruned();
+        self.emission = self.emission.filter(Reflectance::is_seen);
         self
     }
 
     /// Whether lamps show on it.
     pub fn takes_lamps(&self) -> bool {
-        self.diffuse.is_some() || self.highlight.is_some()
+        !self.bsdf.non_specular().is_empty()
     }
 
     /// Whether other things are seen in it.
     pub fn passes_light_on(&self) -> bool {
-        self.mirror.is_some() || self.refraction.is_some()
+        self.bsdf.non_specular().len() < self.bsdf.lobes().len()
     }
 }
 

@@ -123,7 +123,10 @@ impl Resolver<'_> {
             order: model_order(&shot.at(self.frame), &of_models, &names),
             worldlines: of_models,
             materials: own_materials,
-            glass: materials.iter().map(|m| m.refraction.is_some()).collect(),
+            glass: materials
+                .iter()
+                .map(|m| m.bsdf.refraction().is_some())
+                .collect(),
         };
         let lights = self.lights(&arrangement, &names);
         let background = self.background(index(shot.background.worldline.as_deref(), "camera"));

@@ -1,4 +1,4 @@
-//! A shot's spectra as curves.
+//! Curves from the spectra of a shot.
 
 use super::library::Library;
 use crate::color::spaces::XYZ_FROM_RGB;
@@ -9,7 +9,7 @@ use crate::spectrum::{
 };
 use std::sync::Arc;
 
-/// Where Planck's curve is 1 unless `unit_at` says otherwise, nm.
+/// Wavelength at which Planck's curve is 1 unless `unit_at` is given, nm.
 const UNIT_AT_NM: f64 = 560.0;
 
 /// Makes the curves of one image.
@@ -20,31 +20,31 @@ pub(super) struct Spectra<'a> {
 }
 
 impl Spectra<'_> {
-    /// The curve that stands at a key.
+    /// The curve of a spectrum.
     pub(super) fn curve(&self, value: &SpectrumValue) -> Result<Arc<Spectrum>, SpectrumError> {
         let curve = match value {
             SpectrumValue::Number(track) => Spectrum::Constant(self.at(track)),
             SpectrumValue::Table(table) => self.table(table)?,
             SpectrumValue::Name(name) => match self.shot.spectrum.get(name) {
                 Some(table) => self.table(table)?,
-                // Dangling names were refused when the shot was read.
+                // Unknown names were refused when the shot was read.
                 None => illuminant(name).unwrap_or(Spectrum::Constant(0.0)),
             },
         };
         Ok(Arc::new(curve))
     }
 
-    /// The smooth curve of a linear Rec. 709 colour.
+    /// The smooth curve of a linear Rec. 709 color.
     pub(super) fn color(rgb: [f64; 3]) -> Result<Arc<Spectrum>, SpectrumError> {
         Ok(Arc::new(Spectrum::Rgb(Uplift::new(rgb)?)))
     }
 
-    /// Light of a linear Rec. 709 colour, D65 times its uplift, and the scale at which it has the
-    /// luminance of that colour where white has `white`: cd/m², and so cd and lx.
+    /// Light of a linear Rec. 709 color, D65 times its uplift, and the scale that gives it the
+    /// luminance of that color if white has `white`: cd/m², and likewise cd and lx.
     pub(super) fn light(rgb: [f64; 3], white: f64) -> Result<(Tinted, f64), SpectrumError> {
         let curve = Tinted::new(rgb)?;
         let lumens = luminous_integral(&Spectrum::Tinted(curve.clone()));
-        // About green, since the three shares are 1 together: a grey's is exact.
+        // Relative to green, since the three shares add up to 1: the result for gray is exact.
         let ([r, g, b], [red, _, blue]) = (rgb, XYZ_FROM_RGB[1]);
         let luminance = g + red * (r - g) + blue * (b - g);
         let scale = if lumens > 0.0 {
@@ -88,7 +88,7 @@ impl Spectra<'_> {
             return Spectrum::gaussian(self.at(&gaussian.center), self.at(&gaussian.width));
         }
         if let Some(file) = &table.file {
-            // Not black in its place: a spectrum that is silently missing is seen too late.
+            // Not replaced by black: a spectrum that is silently missing would be noticed too late.
             let sampled = self
                 .library
                 .table(file)

@@ -1,4 +1,4 @@
-//! How spectra are held, and how finely.
+//! Knobs: representation and resolution of spectra.
 
 use super::Knob;
 use crate::plan::{self, Called};
@@ -6,11 +6,11 @@ use crate::render::spliced;
 use crate::shot::{Accuracy, Shot, Spectra, Switch};
 use crate::spectrum::LineAxis;
 use crate::study::Start;
-use crate::study::subject::Variant;
+use crate::study::timed_render::Variant;
 
-/// Widths of lines, nm; the paper's is 5.
+/// Spacings of lines, nm; the paper's is 5.
 const LINES_NM: [f64; 4] = [10.0, 5.0, 2.5, 1.0];
-/// Wavelengths of the paper's splines.
+/// Wavelength counts of splines; the paper's is 81.
 const SPLINE_WAVELENGTHS: [u32; 7] = [8, 11, 16, 31, 61, 81, 121];
 const GRID_WAVELENGTHS: [u32; 7] = [8, 11, 21, 42, 84, 168, 336];
 
@@ -74,7 +74,7 @@ pub(super) fn spectra(start: &Start<'_>, called: &Called) -> Knob {
     knob
 }
 
-/// Three numbers for a spectrum, and no shift, which they could not follow.
+/// The image with RGB colors and without shift, which RGB cannot represent.
 pub(in crate::study) fn without_shift(start: &Start<'_>, called: &Called) -> Variant {
     let mut shot = Shot {
         accuracy: Accuracy {
@@ -98,7 +98,7 @@ pub(in crate::study) fn without_shift(start: &Start<'_>, called: &Called) -> Var
     }
 }
 
-/// Whether the sensor's window holds spectral lines at this distance.
+/// Whether the sensor's window contains spectral lines at this spacing.
 pub(in crate::study) fn lines_seen(shot: &Shot, spacing_nm: f64) -> bool {
     LineAxis::new(spacing_nm)
         .within(shot.sensor.window)
