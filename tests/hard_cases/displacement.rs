@@ -1,6 +1,6 @@
 //! How far from its pixel a ray meets its surface, in pixels: rays and triangles are f64.
 
-use crate::scene::Set;
+use super::scene::Set;
 use glam::DVec3;
 use restframe::render::View;
 use restframe::study::displacement::{Displacement, displacement};
