@@ -4,7 +4,7 @@
 mod shell;
 
 use divan::{Bencher, black_box};
-use restframe::plan;
+use restframe::frame;
 use restframe::shade::{Settings, ShadeScratch, Shader};
 use restframe::trace::{BodyHit, Lit, Node, Root, Seen, ShadeTrees, Surface};
 use shell::shell;
@@ -35,7 +35,8 @@ fn lines(bencher: Bencher<'_, '_>, spacing_nm: f64, lamp_doppler: f64) {
 /// XYZ of one lit surface at D = 1.2, the lamp at `lamp_doppler` to it.
 fn shade(bencher: Bencher<'_, '_>, effects: &str, accuracy: &str, lamp_doppler: f64) {
     let (prepared, scene, _) = shell(0.5, "shell", effects, accuracy);
-    let called = plan::called(&prepared.shot, 1, &prepared.shot.effects).expect("it moves");
+    let called =
+        frame::active_effects(&prepared.shot, 1, &prepared.shot.effects).expect("it moves");
     let settings = Settings {
         called: &called,
         accuracy: &prepared.shot.accuracy,

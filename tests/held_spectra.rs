@@ -6,7 +6,7 @@
 )]
 
 use glam::DVec3;
-use restframe::plan;
+use restframe::frame;
 use restframe::queue::Prepared;
 use restframe::scene::sky::{SkyImage, Star, Stars};
 use restframe::scene::{Library, Scene};
@@ -101,7 +101,7 @@ fn scene() -> (Shot, Scene) {
 }
 
 fn shader(shot: &Shot, scene: &Scene) -> Shader {
-    let called = plan::called(shot, 1, &shot.effects).unwrap();
+    let called = frame::active_effects(shot, 1, &shot.effects).unwrap();
     let settings = Settings {
         called: &called,
         accuracy: &shot.accuracy,

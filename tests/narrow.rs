@@ -6,7 +6,7 @@
     reason = "a test's helpers fail by panicking"
 )]
 
-use restframe::plan;
+use restframe::frame;
 use restframe::scene::{Curve, Library, Material, Reflectance, Scene, Thermal};
 use restframe::shade::{Settings, ShadeScratch, Shader};
 use restframe::shot::{self, Accuracy, Shot, Spectra};
@@ -174,7 +174,7 @@ impl Wall {
         if let Some(lamp) = &light.lamp {
             self.scene.lights[0].spectrum = Arc::clone(lamp);
         }
-        let called = plan::called(&self.shot, 1, &self.shot.effects).unwrap();
+        let called = frame::active_effects(&self.shot, 1, &self.shot.effects).unwrap();
         let settings = Settings {
             called: &called,
             accuracy: &accuracy,

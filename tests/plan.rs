@@ -7,7 +7,7 @@
 
 use assert_cmd::Command;
 use restframe::film::{self, Metadata};
-use restframe::plan::FrameKey;
+use restframe::frame::FrameFingerprint;
 use restframe::queue::{Costs, FrameList, Names, Reel, Request};
 use restframe::shot;
 use serde_json::{Value, json};
@@ -108,7 +108,7 @@ impl Desk {
 }
 
 /// A picture of so many bytes that says what it is made of.
-fn picture(key: &FrameKey) -> Vec<u8> {
+fn picture(key: &FrameFingerprint) -> Vec<u8> {
     let metadata = |comments| Metadata {
         fingerprint: Some(key.fingerprint.clone()),
         comments,
@@ -122,9 +122,9 @@ fn picture(key: &FrameKey) -> Vec<u8> {
 /// Bytes of a picture.
 const BYTES: usize = 1000;
 
-fn record(frame: u32, key: &FrameKey, name: &str, seconds: f64) -> Value {
+fn record(frame: u32, key: &FrameFingerprint, name: &str, seconds: f64) -> Value {
     json!({
-        "frame": frame, "fingerprint": key.fingerprint, "parts": key.parts,
+        "frame": frame, "fingerprint": key.fingerprint, "parts": key.inputs,
         "files": [{"name": name, "bytes": BYTES, "blake3": ""}],
         "size": [64, 36], "samples": 4, "effects": ["thermal"], "trace": key.trace, "shared": 1,
         "exposure": 0.0,

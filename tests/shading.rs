@@ -5,7 +5,7 @@
     reason = "a test that cannot be set up has failed"
 )]
 
-use restframe::plan;
+use restframe::frame;
 use restframe::scene::{Library, Scene};
 use restframe::shade::{Settings, ShadeScratch, Shader};
 use restframe::shot::{self, SensorColor, Shot, Spectra};
@@ -69,7 +69,7 @@ fn shot(emissivity: &str) -> (Shot, Scene) {
 }
 
 fn worst(shot: &Shot, scene: &Scene) -> f64 {
-    let called = plan::called(shot, 1, &shot.effects).unwrap();
+    let called = frame::active_effects(shot, 1, &shot.effects).unwrap();
     let settings = Settings {
         called: &called,
         accuracy: &shot.accuracy,

@@ -21,7 +21,7 @@ mod stars;
 use ::image::{DynamicImage, Rgb, Rgb32FImage};
 use glam::DVec3;
 use restframe::film::Film;
-use restframe::plan;
+use restframe::frame;
 use restframe::probe::{Probe, probe};
 use restframe::queue::Prepared;
 use restframe::render::{Options, View, render};
@@ -117,7 +117,7 @@ fn moving(beta: f64, yaw: f64, background: &str) -> String {
 fn shader(prepared: &Prepared) -> Shader {
     let shot = &prepared.shot;
     let scene = Scene::resolve(shot, &prepared.library, 1, None).unwrap();
-    let called = plan::called(shot, 1, &shot.effects).unwrap();
+    let called = frame::active_effects(shot, 1, &shot.effects).unwrap();
     let settings = Settings {
         called: &called,
         accuracy: &shot.accuracy,

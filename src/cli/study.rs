@@ -2,7 +2,7 @@
 
 use super::render::{check_scale, pool, warn};
 use super::{Failed, StudyArguments, failed, mistaken, misused, print, say};
-use crate::plan;
+use crate::frame;
 use crate::queue::{FrameList, Names, Prepared, Request, options, write_atomically};
 use crate::render::{Options, motion_mistake};
 use crate::study::{self, StudyError, report};
@@ -82,7 +82,7 @@ fn frame(prepared: &Prepared, asked: Option<u32>) -> Result<u32, Failed> {
     }
     let mut most = (0, 1);
     for frame in 1..=frames {
-        let called = plan::called(shot, frame, &shot.effects)
+        let called = frame::active_effects(shot, frame, &shot.effects)
             .map_err(|error| mistaken(&motion_mistake(shot, &error)))?;
         most = most.max((called.count(), frame));
     }

@@ -3,7 +3,7 @@
 
 use super::job::Job;
 use super::reel::Glance;
-use crate::plan::Trace;
+use crate::frame::TraceKey;
 use crate::render::{Options, film_bytes};
 
 /// Most memory for the films of a batch, bytes. A film of 1280 x 720 is 11 MiB: forty and more
@@ -17,7 +17,7 @@ pub(super) struct Task {
     /// Number of its job in the night.
     pub(super) job: usize,
     pub(super) frame: u32,
-    pub(super) trace: Trace,
+    pub(super) trace: TraceKey,
     /// Why, if it was there before.
     pub(super) because: Option<String>,
     /// The folder as it was when that was judged.

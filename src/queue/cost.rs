@@ -8,7 +8,7 @@ use super::manifest::{Record, read_records};
 use super::memory::image_bytes;
 use super::names::Names;
 use super::reel::Reel;
-use crate::plan::{Called, Picture};
+use crate::frame::{ActiveEffects, Resolution};
 use crate::shot::{Beaming, Format, Shot};
 use std::collections::HashMap;
 use std::fs;
@@ -129,7 +129,7 @@ impl Costs {
     }
 
     /// What a frame of these effects and size will take.
-    pub fn estimate(&self, effects: &[String], picture: Picture) -> Estimate {
+    pub fn estimate(&self, effects: &[String], picture: Resolution) -> Estimate {
         let same = self.by_effects.get(effects).and_then(Mean::rate);
         let known = same
             .or_else(|| self.own.rate())
@@ -144,13 +144,13 @@ impl Costs {
     }
 
     /// Seconds that a frame of these effects and size will take on its own.
-    pub fn seconds(&self, effects: &[String], picture: Picture) -> f64 {
+    pub fn seconds(&self, effects: &[String], picture: Resolution) -> f64 {
         self.estimate(effects, picture).seconds()
     }
 }
 
 /// Names of the effects that are simulated, as [`Record::effects`] has them.
-pub fn effect_names(called: &Called) -> Vec<String> {
+pub fn effect_names(called: &ActiveEffects) -> Vec<String> {
     [
         ("geometry", called.geometry),
         ("doppler", called.doppler),
@@ -225,7 +225,7 @@ pub fn memory_bytes(reel: &Reel, films: usize, threads: usize) -> u64 {
         .saturating_add(meshes)
 }
 
-fn pixels(picture: Picture) -> u64 {
+fn pixels(picture: Resolution) -> u64 {
     picture.size.map(u64::from).iter().product()
 }
 

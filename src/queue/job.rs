@@ -13,7 +13,7 @@ use super::reel::{Glance, Reel, ReelError, Status};
 use super::shard::Shard;
 use super::shots::{Exposing, Prepared, Request};
 use super::write::check_writable;
-use crate::plan::{FrameKey, Trace};
+use crate::frame::{FrameFingerprint, TraceKey};
 use crate::render::Options;
 use crate::scene::Scene;
 use crate::shot::{Mistakes, Shot};
@@ -61,7 +61,7 @@ pub(super) enum End {
 
 struct Chosen {
     frame: u32,
-    trace: Trace,
+    trace: TraceKey,
     status: Status,
     /// The folder as it was when `status` was judged; nothing, where nothing was there.
     glance: Glance,
@@ -223,7 +223,7 @@ impl Job {
     }
 
     /// Whether another process made a frame what it should be since it was looked at.
-    pub(super) fn came_true(&self, task: &Task, key: &FrameKey) -> bool {
+    pub(super) fn came_true(&self, task: &Task, key: &FrameFingerprint) -> bool {
         // Manifests are not read again, frame after frame: the files tell enough.
         self.reel.glance(task.frame) != task.glance
             && self.reel.status(task.frame, key) == Status::Fresh
@@ -238,7 +238,7 @@ impl Job {
     /// Seconds that each frame to be rendered is expected to take, of a shared trace its part.
     fn costs(&self, force: Force) -> impl Iterator<Item = f64> {
         let costs = Costs::new(&self.reel);
-        let mut sharing: HashMap<Trace, f64> = HashMap::new();
+        let mut sharing: HashMap<TraceKey, f64> = HashMap::new();
         for chosen in self.wanted(force) {
             *sharing.entry(chosen.trace).or_default() += 1.0;
         }

@@ -26,7 +26,7 @@ pub struct Taken<'a> {
     pub exposure_stops: f64,
     /// Samples a pixel.
     pub samples: u32,
-    /// [`FrameKey::fingerprint`](crate::plan::FrameKey), for pictures that are to be known again.
+    /// [`FrameFingerprint::fingerprint`](crate::frame::FrameFingerprint), for pictures that are to be known again.
     pub fingerprint: Option<&'a str>,
 }
 

@@ -6,7 +6,7 @@ use super::job::Job;
 use super::machine::{host, now, peak_memory_mib};
 use super::manifest::{Record, Seconds};
 use super::picture::Pictures;
-use crate::plan::{self, Called, FrameKey};
+use crate::frame::{self, ActiveEffects, FrameFingerprint};
 use crate::render::spliced;
 use crate::shot::{Beaming, Shot};
 
@@ -27,12 +27,12 @@ pub(super) fn warnings(made: &Pictures) -> Vec<String> {
 }
 
 /// The record of a frame, but for its files, times and warnings.
-pub(super) fn blank(job: &Job, task: &Task, key: &FrameKey) -> Record {
+pub(super) fn blank(job: &Job, task: &Task, key: &FrameFingerprint) -> Record {
     let options = &job.options;
     Record {
         frame: task.frame,
         fingerprint: key.fingerprint.clone(),
-        parts: key.parts.clone(),
+        parts: key.inputs.clone(),
         files: Vec::new(),
         size: [options.width, options.height],
         samples: options.samples,
@@ -60,7 +60,7 @@ pub fn frame_effects(shot: &Shot, frame: u32) -> Vec<String> {
     let mut found: Vec<String> = Vec::new();
     for effects in std::iter::once(shot.effects).chain(splices) {
         // A frame without a velocity is refused by whoever renders it.
-        let called = plan::called(shot, frame, &effects);
+        let called = frame::active_effects(shot, frame, &effects);
         found.extend(called.iter().flat_map(effect_names));
     }
     let mut named = effect_names(&ALL);
@@ -69,7 +69,7 @@ pub fn frame_effects(shot: &Shot, frame: u32) -> Vec<String> {
 }
 
 /// Every effect, for the order of their names.
-const ALL: Called = Called {
+const ALL: ActiveEffects = ActiveEffects {
     geometry: true,
     doppler: true,
     beaming: Beaming::Full,

@@ -5,7 +5,7 @@ use super::manifest::{FileRecord, Found, Manifests, Record};
 use super::names::Names;
 use super::shots::{Request, options};
 use crate::film::imprint;
-use crate::plan::{Digests, FrameKey, Keys, Picture};
+use crate::frame::{Digests, Fingerprints, FrameFingerprint, Resolution};
 use crate::render::Options;
 use crate::shot::{Format, Mistakes, Shot};
 use rayon::prelude::*;
@@ -19,7 +19,7 @@ use std::time::SystemTime;
 #[derive(Debug)]
 pub struct Reel {
     /// What each frame is made of.
-    pub keys: Keys,
+    pub keys: Fingerprints,
     /// Where the files are; it need not exist.
     pub folder: PathBuf,
     /// What they are called.
@@ -82,13 +82,13 @@ impl Reel {
     pub fn new(shot: &Shot, request: &Request) -> Result<Self, Mistakes> {
         let digests = Digests::read(shot)?;
         let options = options(shot, request);
-        let picture = Picture {
+        let picture = Resolution {
             size: [options.width, options.height],
             samples: options.samples,
         };
         let names = Names::new(shot);
         Ok(Self {
-            keys: Keys::new(shot.clone(), digests, picture),
+            keys: Fingerprints::new(shot.clone(), digests, picture),
             folder: request.out.join(&names.stem),
             names,
             records: BTreeMap::new(),
@@ -154,7 +154,7 @@ impl Reel {
     /// Whether a frame has to be rendered: by its record, its files' lengths, and what their
     /// headers say they are made of. Where no record tells, files that say the right thing are
     /// decoded whole, so that a folder survives without its manifests.
-    pub fn status(&self, frame: u32, key: &FrameKey) -> Status {
+    pub fn status(&self, frame: u32, key: &FrameFingerprint) -> Status {
         let files = self.files(frame);
         let lengths = self.lengths(frame);
         if lengths.iter().all(Option::is_none) {
@@ -193,7 +193,7 @@ impl Reel {
     }
 
     /// What a manifest tells of a frame's files, if they are of the frame as it should be.
-    pub fn written(&self, frame: u32, key: &FrameKey) -> Option<&[FileRecord]> {
+    pub fn written(&self, frame: u32, key: &FrameFingerprint) -> Option<&[FileRecord]> {
         let record = self.records.get(&frame);
         let record = record.filter(|record| record.fingerprint == key.fingerprint);
         let found = self.found.get(&frame);
@@ -208,7 +208,7 @@ impl Reel {
     }
 
     /// Lengths that a manifest tells of a frame's files, in their order.
-    fn told(&self, frame: u32, key: &FrameKey) -> Option<Vec<u64>> {
+    fn told(&self, frame: u32, key: &FrameFingerprint) -> Option<Vec<u64>> {
         let written = self.written(frame, key)?;
         let length = |name: String| Some(written.iter().find(|file| file.name == name)?.bytes);
         self.files(frame).into_iter().map(length).collect()
@@ -216,7 +216,7 @@ impl Reel {
 
     /// What is to be written down of a frame that is fresh, so that it need not be decoded again;
     /// nothing, if a manifest tells of it.
-    pub(super) fn found(&self, frame: u32, key: &FrameKey) -> Option<Found> {
+    pub(super) fn found(&self, frame: u32, key: &FrameFingerprint) -> Option<Found> {
         if self.told(frame, key).is_some() {
             return None;
         }
@@ -254,7 +254,7 @@ impl Reel {
     }
 
     /// Whether all files that are there say that they are what `key` says.
-    fn is_of(&self, files: &[String], key: &FrameKey) -> bool {
+    fn is_of(&self, files: &[String], key: &FrameFingerprint) -> bool {
         files.iter().all(|name| {
             let path = self.folder.join(name);
             !path.exists() || imprint::fingerprint(&path).as_ref() == Some(&key.fingerprint)

@@ -1,6 +1,6 @@
 //! Frames whose light is shifted, though the shot holds spectra as three numbers.
 
-use crate::plan;
+use crate::frame;
 use crate::render::spliced;
 use crate::shot::{Effects, Mistake, Mistakes, Shot, Spectra};
 use rayon::prelude::*;
@@ -51,7 +51,7 @@ fn parts(shot: &Shot) -> Vec<Part> {
 
 impl Part {
     fn mistake(&self, shot: &Shot, frame: u32) -> Option<Mistake> {
-        let called = plan::called(shot, frame, &self.effects).ok()?;
+        let called = frame::active_effects(shot, frame, &self.effects).ok()?;
         if !called.doppler {
             return None;
         }

@@ -3,7 +3,7 @@
 use super::frames::FrameList;
 use super::shifts::refuse_shifted_numbers;
 use crate::film::EncodeError;
-use crate::plan;
+use crate::frame;
 use crate::render::{Options, metered_exposure};
 use crate::scene::{Library, Scene};
 use crate::shade::{Settings, Unresolved, unresolved};
@@ -95,7 +95,7 @@ impl Prepared {
         let called = [1, frames.div_ceil(2), frames]
             .into_iter()
             .find_map(|frame| {
-                let called = plan::called(&self.shot, frame, &self.shot.effects).ok()?;
+                let called = frame::active_effects(&self.shot, frame, &self.shot.effects).ok()?;
                 called.doppler.then_some((frame, called))
             });
         let Some((frame, called)) = called else {

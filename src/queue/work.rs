@@ -12,7 +12,7 @@ use super::record::{blank, stops, warnings};
 use super::shots::{Exposing, Prepared, RenderError};
 use super::write::{is_full, twice, write_atomically};
 use crate::film::Film;
-use crate::plan::{self, FrameKey, MotionError};
+use crate::frame::{self, FrameFingerprint, MotionError};
 use crate::render::{Member, Together, TogetherError, Watch, motion_mistake, render_together};
 use crate::scene::Scene;
 use crate::shot::{Mistakes, Shot};
@@ -27,7 +27,7 @@ use std::time::{Duration, Instant};
 pub(super) struct Ready {
     pub(super) task: Task,
     /// What the frame is made of.
-    pub(super) key: FrameKey,
+    pub(super) key: FrameFingerprint,
     pub(super) claim: Claim,
 }
 
@@ -344,7 +344,7 @@ fn stage(kept: Option<(Scene, Stage)>, scene: &Scene, shot: &Shot) -> Stage {
 /// The member that a worldline without velocity is of: others may have one of its name.
 fn astray(members: &[Member<'_>], error: &MotionError) -> Undone {
     let fails =
-        |member: &Member<'_>| plan::celerity(member.shot, &error.worldline, member.frame).is_err();
+        |member: &Member<'_>| frame::celerity(member.shot, &error.worldline, member.frame).is_err();
     let index = members.iter().position(fails).unwrap_or(0);
     mistaken(index, motion_mistake(members[index].shot, error))
 }

@@ -1,9 +1,9 @@
 //! How many bounces leave out next to nothing of an image's light.
 
-use super::view::{Standings, Views};
+use super::view::{RelativeMotions, Views};
 use super::{Member, View, channels};
 use crate::film::{Channels, LeftOut, SILENT};
-use crate::plan::MotionError;
+use crate::frame::MotionError;
 use crate::shade::ShadeScratch;
 use crate::shot::MOST_BOUNCES;
 use crate::trace::{Root, Scratch, ShadeTrees, Stage, Tracer};
@@ -36,7 +36,7 @@ pub fn enough_bounces(
     size: [u32; 2],
     left_out: &LeftOut,
 ) -> Result<Enough, MotionError> {
-    let views = Views::new(member, stage, size[1], &Standings::default())?;
+    let views = Views::new(member, stage, size[1], &RelativeMotions::default())?;
     let own = member.shot.effects.bounces;
     for side in SIDES {
         let sample = Sample {

@@ -2,7 +2,7 @@
 
 use super::{Options, render};
 use crate::film::auto_exposure;
-use crate::plan::MotionError;
+use crate::frame::MotionError;
 use crate::scene::{Library, Scene};
 use crate::shot::{LARGEST_SIDE, Mistakes, Shot};
 use crate::trace::Stage;

@@ -1,7 +1,7 @@
 //! The renderer on one page: plan, trace, shade, film.
 
 use crate::film::{Channels, Development, Film};
-use crate::plan::MotionError;
+use crate::frame::MotionError;
 use crate::scene::Scene;
 use crate::shot::{Effects, Layer, SensorColor, Shot, Splice};
 use crate::spectrum::color_space;

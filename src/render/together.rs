@@ -3,10 +3,10 @@
 use super::band::empty_film;
 use super::expose::{Stopped, expose};
 use super::profile::Profile;
-use super::view::{Standings, Views};
+use super::view::{RelativeMotions, Views};
 use super::{Options, channels};
 use crate::film::Film;
-use crate::plan::MotionError;
+use crate::frame::MotionError;
 use crate::scene::Scene;
 use crate::shot::Shot;
 use crate::trace::{Samples, Stage};
@@ -69,7 +69,7 @@ impl From<Stopped> for TogetherError {
     }
 }
 
-/// Renders images that share shade trees ([`FrameKey::trace`](crate::plan::FrameKey) equal), to the
+/// Renders images that share shade trees ([`FrameFingerprint::trace`](crate::frame::FrameFingerprint) equal), to the
 /// same bytes as each alone.
 ///
 /// Trees are those of the first member. Beside the films ([`film_bytes`](super::film_bytes)) and a
@@ -146,12 +146,12 @@ fn prepare<'a>(
     options: &Options,
     stop: &AtomicBool,
 ) -> Result<Vec<Views<'a>>, TogetherError> {
-    let standings = Standings::default();
+    let motions = RelativeMotions::default();
     let views = |member: &Member<'a>| {
         if stop.load(Ordering::Relaxed) {
             return Err(TogetherError::Stopped);
         }
-        Ok(Views::new(*member, stage, options.height, &standings)?)
+        Ok(Views::new(*member, stage, options.height, &motions)?)
     };
     let Some((first, others)) = members.split_first() else {
         return Ok(Vec::new());

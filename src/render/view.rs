@@ -1,7 +1,7 @@
 //! One image under one set of effects: everything a ray needs.
 
 use super::{Member, rows, spliced};
-use crate::plan::{self, Called, MotionError};
+use crate::frame::{self, ActiveEffects, MotionError};
 use crate::scene::Scene;
 use crate::shade::{Settings, Shader};
 use crate::shot::{Accuracy, Effects, Sensor, SensorColor, Shot, Spectra, Switch};
@@ -14,8 +14,8 @@ pub struct View<'a> {
     scene: &'a Scene,
     stage: &'a Stage,
     /// What is simulated.
-    pub called: Called,
-    standing: Arc<Standing>,
+    pub called: ActiveEffects,
+    motion: Arc<RelativeMotion>,
     shader: Shader,
     bounces: u32,
     cutoff: f64,
@@ -35,22 +35,29 @@ impl<'a> View<'a> {
         scene: &'a Scene,
         stage: &'a Stage,
     ) -> Result<Self, MotionError> {
-        Self::sharing(&Standings::default(), shot, frame, switches, scene, stage)
+        Self::sharing(
+            &RelativeMotions::default(),
+            shot,
+            frame,
+            switches,
+            scene,
+            stage,
+        )
     }
 
-    /// [`View::new`] among images in which worldlines stand to each other as `standings` has it.
+    /// [`View::new`] among images in which worldlines stand to each other as `motions` has it.
     fn sharing(
-        standings: &Standings,
+        motions: &RelativeMotions,
         shot: &Shot,
         frame: u32,
         switches: &Effects,
         scene: &'a Scene,
         stage: &'a Stage,
     ) -> Result<Self, MotionError> {
-        let called = plan::called(shot, frame, switches)?;
+        let called = frame::active_effects(shot, frame, switches)?;
         // Where nothing moves the links are translations, which cost nothing; light still takes
         // its time to the camera.
-        let standing = standings.under(switches.geometry, scene, stage);
+        let motion = motions.under(switches.geometry, scene, stage);
         let bounces = if called.mirror || called.refraction {
             switches.bounces
         } else {
@@ -62,8 +69,8 @@ impl<'a> View<'a> {
             called: &called,
             accuracy: &shot.accuracy,
             sensor: &shot.sensor,
-            reach: hops * standing.to_camera,
-            lamp_reach: standing.to_lamps,
+            reach: hops * motion.to_camera,
+            lamp_reach: motion.to_lamps,
         };
         let shader = Shader::new(scene, &settings);
         let reaches = [settings.reach, settings.lamp_reach];
@@ -72,7 +79,7 @@ impl<'a> View<'a> {
             scene,
             stage,
             called,
-            standing,
+            motion,
             shader,
             bounces,
             cutoff: shot.accuracy.cutoff,
@@ -129,7 +136,7 @@ impl<'a> View<'a> {
 
     /// How its worldlines stand to each other.
     pub fn spacetime(&self) -> &Spacetime {
-        &self.standing.spacetime
+        &self.motion.spacetime
     }
 
     /// Whether mirrors or glass are followed.
@@ -175,7 +182,7 @@ impl<'a> View<'a> {
 }
 
 /// How the worldlines of a scene stand to each other.
-struct Standing {
+struct RelativeMotion {
     spacetime: Spacetime,
     /// Largest |ln D| of any worldline to the camera's.
     to_camera: f64,
@@ -183,23 +190,23 @@ struct Standing {
     to_lamps: f64,
 }
 
-/// [`Standing`] with light of finite speed and without, each made once for all images in which it
+/// [`RelativeMotion`] with light of finite speed and without, each made once for all images in which it
 /// is the same.
 #[derive(Default)]
-pub(super) struct Standings {
-    finite: OnceLock<Arc<Standing>>,
-    snapshot: OnceLock<Arc<Standing>>,
+pub(super) struct RelativeMotions {
+    finite: OnceLock<Arc<RelativeMotion>>,
+    snapshot: OnceLock<Arc<RelativeMotion>>,
 }
 
-impl Standings {
-    fn under(&self, geometry: Switch, scene: &Scene, stage: &Stage) -> Arc<Standing> {
+impl RelativeMotions {
+    fn under(&self, geometry: Switch, scene: &Scene, stage: &Stage) -> Arc<RelativeMotion> {
         let made = match geometry {
             Switch::Auto => &self.finite,
             Switch::Off => &self.snapshot,
         };
         let lamps = || scene.lights.iter().map(|light| light.worldline);
-        let standing = made.get_or_init(|| {
-            Arc::new(Standing {
+        let motion = made.get_or_init(|| {
+            Arc::new(RelativeMotion {
                 spacetime: Spacetime::new(scene, geometry == Switch::Auto),
                 to_camera: largest_rapidity(
                     scene,
@@ -212,7 +219,7 @@ impl Standings {
                     .fold(0.0, f64::max),
             })
         });
-        Arc::clone(standing)
+        Arc::clone(motion)
     }
 }
 
@@ -241,11 +248,10 @@ impl<'a> Views<'a> {
         member: Member<'a>,
         stage: &'a Stage,
         height: u32,
-        standings: &Standings,
+        motions: &RelativeMotions,
     ) -> Result<Self, MotionError> {
         let Member { shot, frame, scene } = member;
-        let view =
-            |switches: &Effects| View::sharing(standings, shot, frame, switches, scene, stage);
+        let view = |switches: &Effects| View::sharing(motions, shot, frame, switches, scene, stage);
         Ok(Self {
             whole: view(&shot.effects)?,
             splices: shot

@@ -8,7 +8,7 @@ use super::material::Material;
 use super::model::ModelMaterial;
 use super::sky::Background;
 use super::spectra::Spectra;
-use crate::plan;
+use crate::frame;
 use crate::relativity::Worldline;
 use crate::shot::{Mistake, Mistakes, Shot};
 use glam::DMat3;
@@ -147,7 +147,7 @@ impl Resolver<'_> {
     fn worldlines(&mut self, names: &IndexSet<String>) -> Vec<Worldline> {
         let mut lines = Vec::new();
         for name in names {
-            match plan::worldline(self.shot, name, self.frame) {
+            match frame::worldline(self.shot, name, self.frame) {
                 Ok(line) => lines.push(line),
                 Err(error) => {
                     let key = format!("worldline.{name}.velocity");

@@ -3,7 +3,7 @@
 
 use super::output::Output;
 use crate::film::decode::open;
-use crate::plan::facts;
+use crate::frame::facts;
 use crate::queue::{Reel, open_plain};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};

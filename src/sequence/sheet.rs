@@ -11,7 +11,7 @@ use super::still::Still;
 use super::target::Target;
 use crate::film::plot::escaped;
 use crate::film::raster;
-use crate::plan::facts;
+use crate::frame::facts;
 use crate::queue::Reel;
 use crate::shot::{LARGEST_SIDE, MOST_COLUMNS, Shot};
 use std::io::{self, Write};

@@ -10,7 +10,7 @@ use super::orphans::orphans;
 use super::outlier::{Differences, Grid, Outlier};
 use super::still::{decode_as, shown_extension};
 use crate::film::decode::{Fault, read_bytes};
-use crate::plan::FrameKey;
+use crate::frame::FrameFingerprint;
 use crate::queue::{FileRecord, Reel, Status, Stop};
 use rayon::prelude::*;
 use serde_json::Value;
@@ -218,8 +218,8 @@ fn tell(reel: &Reel, outlier: &Outlier) -> Option<Finding> {
 }
 
 /// Whether a value of the shot leaves the way between its neighbours.
-fn explained(keys: [FrameKey; 3]) -> bool {
-    let [before, here, after] = keys.map(|key| key.parts);
+fn explained(keys: [FrameFingerprint; 3]) -> bool {
+    let [before, here, after] = keys.map(|key| key.inputs);
     let one_way = |part: &str, value: &String| match (before.get(part), after.get(part)) {
         (Some(before), Some(after)) => smooth(before, value, after),
         _ => false,
@@ -265,10 +265,10 @@ fn numbers(text: &str) -> Option<Vec<f64>> {
 mod tests {
     use super::*;
 
-    fn keys(values: [&str; 3]) -> [FrameKey; 3] {
-        values.map(|value| FrameKey {
+    fn keys(values: [&str; 3]) -> [FrameFingerprint; 3] {
+        values.map(|value| FrameFingerprint {
             fingerprint: String::new(),
-            parts: [("camera.pan".to_owned(), value.to_owned())]
+            inputs: [("camera.pan".to_owned(), value.to_owned())]
                 .into_iter()
                 .collect(),
             trace: String::new(),
@@ -303,7 +303,7 @@ mod tests {
     #[test]
     fn a_part_that_one_frame_alone_has_explains_it() {
         let [before, mut here, after] = keys(["1", "1", "1"]);
-        here.parts
+        here.inputs
             .insert("model[1].file".to_owned(), "x".to_owned());
         assert!(explained([before, here, after]));
     }

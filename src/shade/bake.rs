@@ -5,7 +5,7 @@ use super::narrow::Narrow;
 use super::received::{Received, finite};
 use super::table::XyzTable;
 use super::thermal::Glow;
-use crate::plan::Called;
+use crate::frame::ActiveEffects;
 use crate::scene::{Material, Reflectance, Scene, Thermal};
 use crate::shot::{self, Accuracy, Spectra};
 use crate::spectrum::quadrature::cuts_nm;
@@ -117,7 +117,7 @@ impl Sight {
 /// What a [`Shader`](super::Shader) is made for, beside the scene.
 pub struct Settings<'a> {
     /// Effects of the image.
-    pub called: &'a Called,
+    pub called: &'a ActiveEffects,
     /// How spectra are held.
     pub accuracy: &'a Accuracy,
     /// The band that is seen, and how.

@@ -4,7 +4,7 @@ use super::findings::EffectCost;
 use super::rounds::{median, most_rounds as pairs, timing};
 use super::subject::{Bodies, Subject, Variant};
 use super::{Start, StudyError};
-use crate::plan::Called;
+use crate::frame::ActiveEffects;
 use crate::scene::{Library, Scene};
 use crate::shot::{Beaming, Effects, Shot, Switch};
 use crate::trace::Stage;
@@ -19,7 +19,7 @@ struct Effect {
     paper: Option<&'static str>,
 }
 
-fn effects(called: &Called) -> [Effect; 6] {
+fn effects(called: &ActiveEffects) -> [Effect; 6] {
     let effect = |name, called, off| Effect {
         name,
         called,
@@ -53,7 +53,7 @@ const PAIRS: u32 = 3;
 pub(super) fn costs(
     start: &Start<'_>,
     library: &Library,
-    called: &Called,
+    called: &ActiveEffects,
     subject: &Subject,
     rounds: u32,
 ) -> Result<Vec<EffectCost>, StudyError> {

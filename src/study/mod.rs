@@ -24,7 +24,7 @@ pub use findings::Study;
 
 use crate::film::EncodeError;
 use crate::film::compare::CompareError;
-use crate::plan::{self, Called};
+use crate::frame::{self, ActiveEffects};
 use crate::queue::{Names, Prepared};
 use crate::render::{Options, motion_mistake};
 use crate::scene::Scene;
@@ -115,8 +115,8 @@ pub fn study(
 ) -> Result<Study, StudyError> {
     let shot = &prepared.shot;
     let frame = request.frame;
-    let called =
-        plan::called(shot, frame, &shot.effects).map_err(|error| motion_mistake(shot, &error))?;
+    let called = frame::active_effects(shot, frame, &shot.effects)
+        .map_err(|error| motion_mistake(shot, &error))?;
     let (exposing, _) = prepared.exposure()?;
     let subject = Subject::new(shot, frame, &exposing, request.scratch.clone());
     let scene = Scene::resolve(shot, &prepared.library, frame, None)?;
@@ -205,7 +205,7 @@ fn by_grid(shot: &Shot) -> Shot {
 /// The shot as it is, twice; without shift; by lines, splines and the grid.
 fn compare(
     start: &Start<'_>,
-    called: &Called,
+    called: &ActiveEffects,
     subject: &Subject,
     rounds: u32,
 ) -> Result<[Measured; 6], StudyError> {

@@ -6,7 +6,7 @@
 use super::random::Random;
 use rayon::prelude::*;
 use restframe::film::compare::{Comparison, delta_e_2000, lab_from_xyz};
-use restframe::plan;
+use restframe::frame;
 use restframe::scene::{Curve, Library, Material, Reflectance, Scene, Thermal};
 use restframe::shade::{Settings, ShadeScratch, Shader};
 use restframe::shot::{self, Accuracy, Preset, Shot, Spectra};
@@ -185,7 +185,7 @@ impl Wall {
     fn shader(&mut self, shading: &Shading, material: Material, accuracy: Accuracy) -> Shader {
         self.scene.materials[0] = material;
         self.scene.lights[0].spectrum = Arc::clone(&shading.lamp);
-        let called = plan::called(&self.shot, 1, &self.shot.effects).unwrap();
+        let called = frame::active_effects(&self.shot, 1, &self.shot.effects).unwrap();
         let settings = Settings {
             called: &called,
             accuracy: &accuracy,

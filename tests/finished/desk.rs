@@ -253,7 +253,7 @@ pub(crate) fn record(reel: &Reel) {
         let record = Record {
             frame,
             fingerprint: key.fingerprint,
-            parts: key.parts,
+            parts: key.inputs,
             files: files.collect(),
             size: reel.keys.picture().size,
             samples: reel.keys.picture().samples,

@@ -1,7 +1,7 @@
 //! Hashes of files: every file that a shot reads counts, and each byte of it.
 
 use super::desk::Desk;
-use restframe::plan::Digests;
+use restframe::frame::Digests;
 
 const SHOT: &str = r#"
 [[model]]

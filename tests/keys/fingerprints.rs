@@ -1,7 +1,7 @@
 //! Fingerprints: what changes them, of which frames, and what does not.
 
 use super::desk::Desk;
-use restframe::plan::FrameKey;
+use restframe::frame::FrameFingerprint;
 use std::time::Instant;
 
 const SHOT: &str = r##"
@@ -47,7 +47,9 @@ gif = false
 fn differing(desk: &Desk, one: &str, other: &str) -> Vec<usize> {
     let (one, other) = (desk.all(one), desk.all(other));
     let frames = one.iter().zip(&other).enumerate();
-    let differ = |(_, (a, b)): &(usize, (&FrameKey, &FrameKey))| a.fingerprint != b.fingerprint;
+    let differ = |(_, (a, b)): &(usize, (&FrameFingerprint, &FrameFingerprint))| {
+        a.fingerprint != b.fingerprint
+    };
     frames.filter(differ).map(|(i, _)| i + 1).collect()
 }
 
@@ -180,7 +182,7 @@ fn a_metered_exposure_makes_every_frame_depend_on_the_first() {
     let metered = with("exposure = 1", "exposure = \"auto\"");
     let moved = metered.replace("[1, [0, 0, 0]]", "[1, [0.1, 0, 0]]");
     assert_eq!(differing(&desk, &metered, &moved).len(), 9);
-    let parts = |text: &str| desk.all(text)[8].parts.clone();
+    let parts = |text: &str| desk.all(text)[8].inputs.clone();
     let (was, is) = (parts(&metered), parts(&moved));
     let changed: Vec<_> = is
         .iter()
@@ -197,7 +199,7 @@ fn a_metered_exposure_makes_every_frame_depend_on_the_first() {
 #[test]
 fn parts_are_named_and_valued_as_their_author_would_write_them() {
     let desk = Desk::new();
-    let parts = desk.all(SHOT)[0].parts.clone();
+    let parts = desk.all(SHOT)[0].inputs.clone();
     for (key, value) in [
         ("camera.pan", "1.0"),
         ("worldline.w.velocity", "[0.0,0.0,0.0]"),
@@ -207,7 +209,7 @@ fn parts_are_named_and_valued_as_their_author_would_write_them() {
         ("sensor.exposure", "1.0"),
         ("size", "[64,36]"),
         ("samples", "3"),
-        ("epoch", &restframe::plan::EPOCH.to_string()),
+        ("epoch", &restframe::frame::EPOCH.to_string()),
     ] {
         assert_eq!(
             parts.get(key).map(String::as_str),
@@ -223,7 +225,7 @@ fn parts_are_named_and_valued_as_their_author_would_write_them() {
         "file = \"paint.csv\"",
         "points = [[400, 0.1], [500, 0.2], [600, 0.3], [700, 0.4]]",
     );
-    let points = desk.all(&long)[0].parts["spectrum.paint.points"].clone();
+    let points = desk.all(&long)[0].inputs["spectrum.paint.points"].clone();
     assert!(points.starts_with('#') && points.len() == 17, "{points}");
 }
 

@@ -5,7 +5,7 @@
 
 use super::desk::Desk;
 use restframe::film::{develop, png::to_rgb8};
-use restframe::plan::EPOCH;
+use restframe::frame::EPOCH;
 use restframe::render::{Options, development, render};
 use restframe::scene::{Library, Scene};
 use restframe::trace::Stage;

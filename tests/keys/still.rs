@@ -3,7 +3,7 @@
 
 use super::desk::Desk;
 use assert_cmd::Command;
-use restframe::plan;
+use restframe::frame;
 use restframe::shot::{Places, Sequence, Shot, parse, schema};
 use serde_json::Value;
 use std::collections::BTreeSet;
@@ -316,8 +316,8 @@ fn what_a_frame_calls_for_is_what_the_shot_of_that_frame_alone_does() {
         };
         for frame in 1..=shot.shot.frames {
             let still = shot.at(frame);
-            let alone = plan::called(&still, 1, &still.effects);
-            let called = plan::called(&shot, frame, &shot.effects);
+            let alone = frame::active_effects(&still, 1, &still.effects);
+            let called = frame::active_effects(&shot, frame, &shot.effects);
             assert_eq!(called, alone, "{}: {frame}", path.display());
         }
     }

@@ -92,7 +92,7 @@ fn a_sky_that_moves_calls_for_the_shift() {
             "[worldline.sky]\nvelocity = [0, 0, 0.5]\n[camera]\n[background]\nworldline = \"sky\"\n{sky}\n"
         );
         let shot = folder.shot(1, &rest).unwrap().shot;
-        restframe::plan::called(&shot, 1, &shot.effects)
+        restframe::frame::active_effects(&shot, 1, &shot.effects)
             .unwrap()
             .doppler
     };

@@ -10,7 +10,7 @@ mod words;
 use super::answer::{Answer, Reader};
 use super::render::check_scale;
 use super::{Failed, PlanArguments, failed, mistaken, misused, print};
-use crate::plan::{self, Called, Reason, Trace};
+use crate::frame::{self, ActiveEffects, Reason, TraceKey};
 use crate::queue::{
     Costs, Estimate, Reel, ReelError, Request, Status, effect_names, frame_bytes, frame_effects,
     memory_bytes, most_together, options, refuse_shifted_numbers,
@@ -30,7 +30,7 @@ const AT_ONCE: usize = 4096;
 /// One frame.
 struct Planned {
     frame: u32,
-    called: Called,
+    called: ActiveEffects,
     status: Status,
     /// Number of its trace, in the order of their first frames.
     trace: u32,
@@ -98,7 +98,7 @@ pub(super) fn run(arguments: &PlanArguments) -> Result<(), Failed> {
 fn check_motion(shot: &Shot, frames: &[u32]) -> Result<(), Failed> {
     let wrong = frames.par_iter().find_map_first(|frame| {
         let mut names = shot.worldline.keys();
-        names.find_map(|name| plan::celerity(shot, name, *frame).err())
+        names.find_map(|name| frame::celerity(shot, name, *frame).err())
     });
     wrong.map_or(Ok(()), |error| Err(mistaken(&motion_mistake(shot, &error))))
 }
@@ -125,7 +125,7 @@ impl<'a> Plan<'a> {
         };
         let statuses = reel.statuses(&there);
         let there: BTreeMap<u32, Status> = there.into_iter().zip(statuses).collect();
-        let mut numbers: HashMap<Trace, u32> = HashMap::new();
+        let mut numbers: HashMap<TraceKey, u32> = HashMap::new();
         let mut sharing: Vec<[u32; 2]> = Vec::new();
         let mut traces = Vec::with_capacity(frames.len());
         for (frame, trace) in frames.iter().zip(reel.keys.traces_of(&frames)) {
@@ -151,7 +151,7 @@ impl<'a> Plan<'a> {
     /// Plans the frame at a place of the list.
     fn frame(&self, place: usize) -> Result<Planned, Failed> {
         let (reel, shot, frame) = (self.reel, self.reel.shot(), self.frames[place]);
-        let called = plan::called(shot, frame, &shot.effects)
+        let called = frame::active_effects(shot, frame, &shot.effects)
             .map_err(|error| mistaken(&motion_mistake(shot, &error)))?;
         let effects = if shot.splice.is_empty() {
             effect_names(&called)

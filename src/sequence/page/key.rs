@@ -3,7 +3,7 @@
 use super::super::output::OUTPUTS;
 use super::run::{Outcome, RunFacts};
 use super::view::{Found, fitting};
-use crate::plan::facts;
+use crate::frame::facts;
 use crate::queue::{Reel, Status};
 use serde_json::{Value, json};
 use std::fs;

@@ -3,7 +3,7 @@
 use super::chart::PHASES;
 use super::view::{Contents, Entry, View, beside, span};
 use crate::film::plot::quantity::{NOTHING, bytes, number, time};
-use crate::plan::Facts;
+use crate::frame::Facts;
 use crate::queue::Record;
 use crate::relativity::Celerity;
 use maud::{Markup, html};

@@ -2,7 +2,7 @@
 
 use super::run::{Outcome, RunFacts};
 use super::thumbnail::{Thumbnail, small};
-use crate::plan::{Facts, facts};
+use crate::frame::{Facts, facts};
 use crate::queue::{Record, Reel, Status, Stop};
 use crate::sequence::gaps::{Run, SINGLY, count, gaps};
 use crate::sequence::read;

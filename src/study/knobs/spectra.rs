@@ -1,7 +1,7 @@
 //! How spectra are held, and how finely.
 
 use super::Knob;
-use crate::plan::{self, Called};
+use crate::frame::{self, ActiveEffects};
 use crate::render::spliced;
 use crate::shot::{Accuracy, Shot, Spectra, Switch};
 use crate::spectrum::LineAxis;
@@ -15,7 +15,7 @@ const SPLINE_WAVELENGTHS: [u32; 7] = [8, 11, 16, 31, 61, 81, 121];
 const GRID_WAVELENGTHS: [u32; 7] = [8, 11, 21, 42, 84, 168, 336];
 
 /// The knob `accuracy.spectra`, with its resolutions.
-pub(super) fn spectra(start: &Start<'_>, called: &Called) -> Knob {
+pub(super) fn spectra(start: &Start<'_>, called: &ActiveEffects) -> Knob {
     let mut knob = Knob::new(
         "accuracy.spectra",
         "shade",
@@ -75,7 +75,7 @@ pub(super) fn spectra(start: &Start<'_>, called: &Called) -> Knob {
 }
 
 /// Three numbers for a spectrum, and no shift, which they could not follow.
-pub(in crate::study) fn without_shift(start: &Start<'_>, called: &Called) -> Variant {
+pub(in crate::study) fn without_shift(start: &Start<'_>, called: &ActiveEffects) -> Variant {
     let mut shot = Shot {
         accuracy: Accuracy {
             spectra: Spectra::Rgb,
@@ -109,6 +109,6 @@ pub(in crate::study) fn lines_seen(shot: &Shot, spacing_nm: f64) -> bool {
 fn splices_shift(start: &Start<'_>) -> bool {
     start.shot.splice.iter().any(|splice| {
         let effects = spliced(&start.shot.effects, splice);
-        plan::called(start.shot, start.frame, &effects).is_ok_and(|called| called.doppler)
+        frame::active_effects(start.shot, start.frame, &effects).is_ok_and(|called| called.doppler)
     })
 }

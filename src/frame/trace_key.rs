@@ -8,9 +8,9 @@
 //! something is there, these count as well: frames may then be traced apart that need not be, never
 //! the other way round.
 
-use super::files::Digests;
-use super::key::Picture;
-use super::parts::aspect;
+use super::digests::Digests;
+use super::fingerprint::Resolution;
+use super::fingerprint_inputs::aspect;
 use crate::shot::{
     Accuracy, Background, Clock, Effects, Format, Light, Material, Model, Moving, Refraction, Shot,
     SpectrumTable, SpectrumValue, Splice, SpliceEffects, Track,
@@ -31,7 +31,7 @@ const COLDEST: f64 = 100.0;
 /// A part of what shade trees follow from, by where it stands in the shot.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Section {
-    Picture,
+    Resolution,
     Film,
     Clock,
     Camera,
@@ -48,7 +48,7 @@ pub(super) enum Section {
 impl Section {
     /// All of them, in the order in which they are hashed.
     pub(super) const ALL: [Self; 12] = [
-        Self::Picture,
+        Self::Resolution,
         Self::Film,
         Self::Clock,
         Self::Camera,
@@ -73,7 +73,7 @@ impl Section {
             Self::Materials => moving.materials || moving.spectra,
             Self::Lamps => moving.lights || moving.spectra,
             Self::Sky => moving.background || moving.spectra,
-            Self::Picture | Self::Film | Self::Effects | Self::Splices | Self::Accuracy => false,
+            Self::Resolution | Self::Film | Self::Effects | Self::Splices | Self::Accuracy => false,
         }
     }
 }
@@ -105,7 +105,7 @@ fn now(track: &Track<f64>) -> f64 {
 pub(super) struct Traced<'a> {
     pub(super) still: &'a Shot,
     pub(super) digests: &'a Digests,
-    pub(super) picture: Picture,
+    pub(super) picture: Resolution,
 }
 
 impl Traced<'_> {
@@ -136,7 +136,7 @@ impl Traced<'_> {
             light_speed,
         } = &still.shot;
         let list = match section {
-            Section::Picture => {
+            Section::Resolution => {
                 json!([picture.size, [picture.samples], aspect(still.image.size)])
             }
             Section::Film => {

@@ -6,7 +6,7 @@ use crate::shot::{Beaming, Effects, Material, Shot, SpectrumValue, Switch, Track
 
 /// The effects that are simulated in one image. What is false, or off, costs nothing.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Called {
+pub struct ActiveEffects {
     /// Finite light speed: retardation, aberration, contraction.
     pub geometry: bool,
     /// Wavelength shift.
@@ -25,7 +25,7 @@ pub struct Called {
     pub because: Vec<Reason>,
 }
 
-impl Called {
+impl ActiveEffects {
     /// How many effects that is.
     pub fn count(&self) -> usize {
         let beaming = self.beaming != Beaming::Off;
@@ -57,7 +57,11 @@ pub struct Reason {
 ///
 /// # Errors
 /// Where a worldline has no velocity in this frame.
-pub fn called(shot: &Shot, frame: u32, switches: &Effects) -> Result<Called, MotionError> {
+pub fn active_effects(
+    shot: &Shot,
+    frame: u32,
+    switches: &Effects,
+) -> Result<ActiveEffects, MotionError> {
     let moving = relative_motion(shot, frame)?;
     let hot = hot_material(shot, frame);
     let lit = lamps(shot);
@@ -110,7 +114,7 @@ pub fn called(shot: &Shot, frame: u32, switches: &Effects) -> Result<Called, Mot
     } else {
         Beaming::Off
     };
-    Ok(Called {
+    Ok(ActiveEffects {
         geometry,
         doppler,
         beaming,

@@ -1,33 +1,33 @@
 //! The values that reach a frame's pixels, each by the key that its author would change.
 
-use super::key::Picture;
+use super::fingerprint::Resolution;
 use crate::shot::{Exposure, Format, Layer, Shot};
 use indexmap::IndexMap;
 use serde_json::{Map, Value, json};
 
 /// Values by key: a short one as it stands in JSON, a long one by its hash.
-pub(super) type Parts = IndexMap<String, String>;
+pub(super) type FingerprintInputs = IndexMap<String, String>;
 
 /// Longest value that is kept as it stands, bytes.
 const LONGEST: usize = 40;
 
 /// Which pixels are asked about.
 #[derive(Clone, Copy)]
-pub(super) enum Pixels<'a> {
+pub(super) enum For<'a> {
     /// Those of the small render that exposure is metered on.
-    Metered,
+    Metering,
     /// Those of the frame's files.
-    Written {
+    Output {
         /// Their size and samples.
-        picture: Picture,
+        picture: Resolution,
         /// The parts of the frame that exposure is metered on, hashed; None where it is authored.
         metered: Option<&'a str>,
     },
 }
 
 /// What the pixels of a shot of one frame are made of, its files aside.
-pub(super) fn parts(still: &Shot, pixels: Pixels<'_>) -> Parts {
-    let mut parts = Parts::new();
+pub(super) fn inputs(still: &Shot, pixels: For<'_>) -> FingerprintInputs {
+    let mut parts = FingerprintInputs::new();
     let Value::Object(mut sections) = still.to_json() else {
         return parts;
     };
@@ -58,8 +58,8 @@ pub(super) fn parts(still: &Shot, pixels: Pixels<'_>) -> Parts {
         image["aspect"] = json!(aspect(still.image.size));
     }
     match pixels {
-        Pixels::Metered => remove(&mut sections, "sensor", &["tone"]),
-        Pixels::Written { picture, metered } => {
+        For::Metering => remove(&mut sections, "sensor", &["tone"]),
+        For::Output { picture, metered } => {
             parts.insert("size".to_owned(), json!(picture.size).to_string());
             parts.insert("samples".to_owned(), picture.samples.to_string());
             written(still, &mut sections);
@@ -117,7 +117,7 @@ fn remove(sections: &mut Map<String, Value>, section: &str, keys: &[&str]) {
 }
 
 /// Adds the leaves of a value; lists are leaves but for those of tables.
-fn add(value: &Value, key: &mut String, parts: &mut Parts) {
+fn add(value: &Value, key: &mut String, parts: &mut FingerprintInputs) {
     let length = key.len();
     match value {
         Value::Object(object) => {
@@ -159,7 +159,7 @@ pub(super) fn short_hash(bytes: &[u8]) -> String {
 }
 
 /// BLAKE3 of parts, in whatever order their author wrote them.
-pub(super) fn hash(parts: &Parts) -> blake3::Hash {
+pub(super) fn hash(parts: &FingerprintInputs) -> blake3::Hash {
     let mut sorted: Vec<(&String, &String)> = parts.iter().collect();
     sorted.sort_unstable();
     let mut hasher = blake3::Hasher::new();

@@ -1,17 +1,17 @@
 //! The traces of many frames, one after the other: of what they follow from only that which moves is
 //! looked at again.
 
-use super::files::Digests;
-use super::key::Picture;
-use super::traced::{Section, Traced};
+use super::digests::Digests;
+use super::fingerprint::Resolution;
+use super::trace_key::{Section, Traced};
 use crate::shot::{Moving, Shot};
 
 /// Frames in which this is equal have the same shade trees. As text, 16 hexadecimal digits, it is
-/// [`FrameKey::trace`](super::FrameKey).
+/// [`FrameFingerprint::trace`](super::FrameFingerprint).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub struct Trace(u64);
+pub struct TraceKey(u64);
 
-impl std::fmt::Display for Trace {
+impl std::fmt::Display for TraceKey {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         write!(f, "{:016x}", self.0)
     }
@@ -19,10 +19,10 @@ impl std::fmt::Display for Trace {
 
 /// Tells the traces of a shot's frames; a microsecond or a few each.
 #[derive(Debug, Clone)]
-pub struct Traces<'a> {
+pub struct TraceKeys<'a> {
     shot: &'a Shot,
     digests: &'a Digests,
-    picture: Picture,
+    picture: Resolution,
     moving: Moving,
     /// The frame that was asked for last, as far as it moves.
     still: Shot,
@@ -30,8 +30,8 @@ pub struct Traces<'a> {
     sections: [String; Section::ALL.len()],
 }
 
-impl<'a> Traces<'a> {
-    pub(super) fn new(shot: &'a Shot, digests: &'a Digests, picture: Picture) -> Self {
+impl<'a> TraceKeys<'a> {
+    pub(super) fn new(shot: &'a Shot, digests: &'a Digests, picture: Resolution) -> Self {
         let still = shot.at(1);
         Self {
             sections: sections(&still, digests, picture),
@@ -44,7 +44,7 @@ impl<'a> Traces<'a> {
     }
 
     /// The trace of frame number `frame`.
-    pub fn of(&mut self, frame: u32) -> Trace {
+    pub fn of(&mut self, frame: u32) -> TraceKey {
         self.still.move_to(frame, self.shot, self.moving);
         let traced = Traced {
             still: &self.still,
@@ -61,11 +61,11 @@ impl<'a> Traces<'a> {
 }
 
 /// The trace of a shot of one frame.
-pub(super) fn trace(still: &Shot, digests: &Digests, picture: Picture) -> Trace {
+pub(super) fn trace(still: &Shot, digests: &Digests, picture: Resolution) -> TraceKey {
     hashed(&sections(still, digests, picture))
 }
 
-fn sections(still: &Shot, digests: &Digests, picture: Picture) -> [String; Section::ALL.len()] {
+fn sections(still: &Shot, digests: &Digests, picture: Resolution) -> [String; Section::ALL.len()] {
     let traced = Traced {
         still,
         digests,
@@ -75,9 +75,9 @@ fn sections(still: &Shot, digests: &Digests, picture: Picture) -> [String; Secti
 }
 
 /// Of a list of all sections.
-fn hashed(sections: &[String]) -> Trace {
+fn hashed(sections: &[String]) -> TraceKey {
     let list = format!("[{}]", sections.join(","));
     let mut first = [0; 8];
     first.copy_from_slice(&blake3::hash(list.as_bytes()).as_bytes()[..8]);
-    Trace(u64::from_be_bytes(first))
+    TraceKey(u64::from_be_bytes(first))
 }
