@@ -84,7 +84,7 @@ fn record(reel: &Reel, frame: u32, bytes: u64) -> Record {
     Record {
         frame,
         fingerprint: key.fingerprint,
-        parts: key.parts,
+        parts: key.inputs,
         files: vec![FileRecord {
             name: reel.names.frame(frame, "png"),
             bytes,
