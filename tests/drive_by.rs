@@ -5,6 +5,7 @@
     reason = "a test that cannot be set up has failed"
 )]
 
+use restframe::frame::Frame;
 use restframe::probe::{Probe, probe};
 use restframe::queue::Prepared;
 use restframe::render::View;
@@ -53,10 +54,11 @@ fn with(lines: &[(&str, &str)]) -> Prepared {
 /// What pixels of a frame see.
 fn probes(prepared: &Prepared, frame: u32, pixels: &[[u32; 2]]) -> Vec<Probe> {
     let shot = &prepared.shot;
-    let scene = Scene::resolve(shot, &prepared.library, frame, None).unwrap();
+    let values = Frame::new(shot, frame).unwrap();
+    let scene = Scene::resolve(&values, &prepared.library, None).unwrap();
     let stage = Stage::build(&scene.geometry, None);
-    let view = View::new(shot, frame, &shot.effects, &scene, &stage).unwrap();
-    let look = |pixel: &[u32; 2]| probe(shot, frame, *pixel, &view, &scene, 0.0);
+    let view = View::new(&values, &shot.effects, &scene, &stage);
+    let look = |pixel: &[u32; 2]| probe(&values, *pixel, &view, &scene, 0.0);
     pixels.iter().map(look).collect()
 }
 

@@ -6,7 +6,7 @@
 )]
 
 use glam::DVec3;
-use restframe::frame;
+use restframe::frame::{Frame, Sensor};
 use restframe::queue::Prepared;
 use restframe::scene::sky::{SkyImage, Star, Stars};
 use restframe::scene::{Library, Scene};
@@ -96,16 +96,16 @@ fn scene() -> (Shot, Scene) {
     let text: String = MATERIALS.iter().map(wall).collect::<String>() + SHOT;
     let shot = shot::parse(&text, &folder.join("held.toml")).unwrap();
     let library = Library::load(&shot).unwrap();
-    let scene = Scene::resolve(&shot, &library, 1, None).unwrap();
+    let scene = Scene::resolve(&Frame::new(&shot, 1).unwrap(), &library, None).unwrap();
     (shot, scene)
 }
 
 fn shader(shot: &Shot, scene: &Scene) -> Shader {
-    let called = frame::active_effects(shot, 1, &shot.effects).unwrap();
+    let called = Frame::new(shot, 1).unwrap().active_effects(&shot.effects);
     let settings = Settings {
         called: &called,
         accuracy: &shot.accuracy,
-        sensor: &shot.sensor,
+        sensor: &Sensor::new(&shot.sensor),
         reach: 3.0,
         lamp_reach: 3.0,
     };

@@ -6,7 +6,7 @@
     reason = "a test's helpers fail by panicking"
 )]
 
-use restframe::frame;
+use restframe::frame::{Frame, Sensor};
 use restframe::scene::{Curve, Library, Material, Reflectance, Scene, Thermal};
 use restframe::shade::{Settings, ShadeScratch, Shader};
 use restframe::shot::{self, Accuracy, Shot, Spectra};
@@ -143,7 +143,7 @@ impl Wall {
         std::fs::write(folder.path().join("quad.obj"), quad).unwrap();
         let shot = shot::parse(SHOT, &folder.path().join("narrow.toml")).unwrap();
         let library = Library::load(&shot).unwrap();
-        let scene = Scene::resolve(&shot, &library, 1, None).unwrap();
+        let scene = Scene::resolve(&Frame::new(&shot, 1).unwrap(), &library, None).unwrap();
         Self { shot, scene }
     }
 
@@ -174,11 +174,13 @@ impl Wall {
         if let Some(lamp) = &light.lamp {
             self.scene.lights[0].spectrum = Arc::clone(lamp);
         }
-        let called = frame::active_effects(&self.shot, 1, &self.shot.effects).unwrap();
+        let called = Frame::new(&self.shot, 1)
+            .unwrap()
+            .active_effects(&self.shot.effects);
         let settings = Settings {
             called: &called,
             accuracy: &accuracy,
-            sensor: &self.shot.sensor,
+            sensor: &Sensor::new(&self.shot.sensor),
             reach,
             lamp_reach: 1.0,
         };

@@ -275,10 +275,10 @@ fn what_is_learnt_while_rendering_mends_the_estimate() {
     let reel = desk.reel();
     let mut costs = Costs::new(&reel);
     let effects = ["thermal".to_owned()];
-    assert!(!costs.estimate(&effects, reel.keys.picture()).measured);
+    assert!(!costs.estimate(&effects, reel.keys.resolution()).measured);
     let record = record(1, &reel.keys.frame(1), "x.png", 5.0);
     costs.learn(&serde_json::from_value(record).unwrap());
-    let seconds = costs.seconds(&effects, reel.keys.picture());
+    let seconds = costs.seconds(&effects, reel.keys.resolution());
     assert!((seconds - 5.0).abs() < 1e-9, "{seconds}");
 }
 

@@ -5,7 +5,7 @@
     reason = "a test that cannot be set up has failed"
 )]
 
-use restframe::frame;
+use restframe::frame::{Frame, Sensor};
 use restframe::scene::{Library, Scene};
 use restframe::shade::{Settings, ShadeScratch, Shader};
 use restframe::shot::{self, SensorColor, Shot, Spectra};
@@ -64,16 +64,16 @@ fn shot(emissivity: &str) -> (Shot, Scene) {
     let text = SHOT.replace("EMISSIVITY", emissivity);
     let shot = shot::parse(&text, &folder.join("shading.toml")).unwrap();
     let library = Library::load(&shot).unwrap();
-    let scene = Scene::resolve(&shot, &library, 1, None).unwrap();
+    let scene = Scene::resolve(&Frame::new(&shot, 1).unwrap(), &library, None).unwrap();
     (shot, scene)
 }
 
 fn worst(shot: &Shot, scene: &Scene) -> f64 {
-    let called = frame::active_effects(shot, 1, &shot.effects).unwrap();
+    let called = Frame::new(shot, 1).unwrap().active_effects(&shot.effects);
     let settings = Settings {
         called: &called,
         accuracy: &shot.accuracy,
-        sensor: &shot.sensor,
+        sensor: &Sensor::new(&shot.sensor),
         reach: 175.0,
         lamp_reach: 350.0,
     };

@@ -16,6 +16,7 @@ mod scene;
 
 use eye::{Eye, sphere, triangles};
 use glam::DVec3;
+use restframe::frame::Frame;
 use restframe::render::View;
 use restframe::scene::model::{Model, load};
 use restframe::scene::{Geometry, Instance, Mesh, Scene};
@@ -323,7 +324,12 @@ fn displaced(levels: &[u32]) -> Vec<Displacement> {
     };
     let finest = of(8);
     let view = |of: &(Scene, Stage), look: &dyn Fn(&View<'_>) -> Displacement| {
-        look(&View::new(shot, 1, &shot.effects, &of.0, &of.1).unwrap())
+        look(&View::new(
+            &Frame::new(shot, 1).unwrap(),
+            &shot.effects,
+            &of.0,
+            &of.1,
+        ))
     };
     levels
         .iter()

@@ -3,6 +3,7 @@
 
 use assert_cmd::Command;
 use restframe::film::compare::relative_rmse;
+use restframe::frame::Frame;
 use restframe::queue::Prepared;
 use restframe::render::{Options, render};
 use restframe::scene::Scene;
@@ -97,10 +98,11 @@ fn settings(sweep: &Sweep) -> Vec<&str> {
 fn film(prepared: &Prepared, accuracy: Accuracy) -> Vec<[f32; 3]> {
     let mut shot = prepared.shot.clone();
     shot.accuracy = accuracy;
-    let scene = Scene::resolve(&shot, &prepared.library, 1, None).expect("it resolves");
+    let frame = Frame::new(&shot, 1).unwrap();
+    let scene = Scene::resolve(&frame, &prepared.library, None).expect("it resolves");
     let stage = Stage::build(&scene.geometry, None);
-    let film = render(&shot, 1, &scene, &stage, &OPTIONS, &|_| ());
-    film.expect("it renders").xyz
+    let film = render(&frame, &scene, &stage, &OPTIONS, &|_| ());
+    film.xyz
 }
 
 #[test]

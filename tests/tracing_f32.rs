@@ -18,6 +18,7 @@ use assert_cmd::Command;
 use eye::{Dice, triangles};
 use glam::DVec3;
 use restframe::film::Film;
+use restframe::frame::Frame;
 use restframe::render::{Options, View, render};
 use restframe::scene::Geometry;
 use restframe::shot::Precision::{self, F32, F64};
@@ -54,7 +55,13 @@ fn film(set: &Set, precision: Precision) -> Film {
         samples: shot.image.samples,
         layers: Vec::new(),
     };
-    render(shot, 1, &scene, &stage, &options, &|_| ()).unwrap()
+    render(
+        &Frame::new(shot, 1).unwrap(),
+        &scene,
+        &stage,
+        &options,
+        &|_| (),
+    )
 }
 
 /// How far what is traced in either precision stands from where f64 has it.
@@ -62,7 +69,7 @@ fn displaced(set: &Set) -> [Displacement; 2] {
     let shot = &set.prepared.shot;
     let scene = set.scene();
     let stages = [F64, F32].map(|p| Stage::with_precision(&scene.geometry, None, p));
-    let view = |stage| View::new(shot, 1, &shot.effects, &scene, stage).unwrap();
+    let view = |stage| View::new(&Frame::new(shot, 1).unwrap(), &shot.effects, &scene, stage);
     let views = [view(&stages[0]), view(&stages[1])];
     [0, 1].map(|i| displacement(&views[0], &views[i], shot.image.size))
 }

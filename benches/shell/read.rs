@@ -1,5 +1,6 @@
 //! Shots of benches, read from text.
 
+use restframe::frame::Frame;
 use restframe::queue::Prepared;
 use restframe::scene::Scene;
 use restframe::trace::Stage;
@@ -10,7 +11,12 @@ pub(crate) fn read(text: &str) -> (Prepared, Scene, Stage) {
     let path = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(format!("bench-{}.toml", id(text)));
     std::fs::write(&path, text).expect("the target folder can be written to");
     let prepared = Prepared::read(&path).expect("the shot has no mistake");
-    let scene = Scene::resolve(&prepared.shot, &prepared.library, 1, None).expect("it resolves");
+    let scene = Scene::resolve(
+        &Frame::new(&prepared.shot, 1).expect("it moves"),
+        &prepared.library,
+        None,
+    )
+    .expect("it resolves");
     let stage = Stage::build(&scene.geometry, None);
     (prepared, scene, stage)
 }

@@ -123,7 +123,7 @@ fn read(
         Closed::None
     };
     for job in &jobs {
-        let (shot, size) = (job.reel.shot(), job.reel.keys.picture().size);
+        let (shot, size) = (job.reel.shot(), job.reel.keys.resolution().size);
         if let Some(why) = foreseen(shot, size) {
             progress.warn(&format!("{}: {why}", shot.path.display()));
         }

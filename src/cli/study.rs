@@ -2,9 +2,9 @@
 
 use super::render::{check_scale, pool, warn};
 use super::{Failed, StudyArguments, failed, mistaken, misused, print, say};
-use crate::frame;
+use crate::frame::Frames;
 use crate::queue::{FrameList, Names, Prepared, Request, options, write_atomically};
-use crate::render::{Options, motion_mistake};
+use crate::render::Options;
 use crate::study::{self, StudyError, report};
 use std::path::{Path, PathBuf};
 
@@ -81,10 +81,11 @@ fn frame(prepared: &Prepared, asked: Option<u32>) -> Result<u32, Failed> {
         };
     }
     let mut most = (0, 1);
-    for frame in 1..=frames {
-        let called = frame::active_effects(shot, frame, &shot.effects)
-            .map_err(|error| mistaken(&motion_mistake(shot, &error)))?;
-        most = most.max((called.count(), frame));
+    let mut all = Frames::new(shot);
+    for number in 1..=frames {
+        let frame = all.at(number).map_err(|m| mistaken(&m))?;
+        let called = frame.active_effects(&frame.effects);
+        most = most.max((called.count(), number));
     }
     Ok(most.1)
 }

@@ -1,10 +1,11 @@
-//! Which effects an image calls for, and the sentence why.
+//! The effects that a frame calls for, and one sentence each why.
 
-use super::motion::{MotionError, celerity};
+use super::model::Model;
+use super::values::Frame;
 use crate::relativity::Celerity;
-use crate::shot::{Beaming, Effects, Material, Shot, SpectrumValue, Switch, Track};
+use crate::shot::{Beaming, Effects, Switch};
 
-/// The effects that are simulated in one image. What is false, or off, costs nothing.
+/// The effects that are simulated. What is false, or off, costs nothing.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ActiveEffects {
     /// Finite light speed: retardation, aberration, contraction.
@@ -22,26 +23,7 @@ pub struct ActiveEffects {
     /// Ideal refraction.
     pub refraction: bool,
     /// One sentence an effect.
-    pub because: Vec<Reason>,
-}
-
-impl ActiveEffects {
-    /// How many effects that is.
-    pub fn count(&self) -> usize {
-        let beaming = self.beaming != Beaming::Off;
-        [
-            self.geometry,
-            self.doppler,
-            beaming,
-            self.thermal,
-            self.shadows,
-            self.mirror,
-            self.refraction,
-        ]
-        .into_iter()
-        .filter(|called| *called)
-        .count()
-    }
+    pub reasons: Vec<Reason>,
 }
 
 /// Why an effect is, or is not, simulated.
@@ -53,186 +35,208 @@ pub struct Reason {
     pub why: String,
 }
 
-/// The effects that frame number `frame` calls for, under the author's `switches`.
-///
-/// # Errors
-/// Where a worldline has no velocity in this frame.
-pub fn active_effects(
-    shot: &Shot,
-    frame: u32,
-    switches: &Effects,
-) -> Result<ActiveEffects, MotionError> {
-    let moving = relative_motion(shot, frame)?;
-    let hot = hot_material(shot, frame);
-    let lit = lamps(shot);
-    let mut because = Vec::new();
-    let mut call = |effect, allowed: bool, cause: Option<&str>, without: &str| {
-        let why = match (allowed, cause) {
-            (false, _) => "off in the shot".to_owned(),
-            (true, Some(cause)) => cause.to_owned(),
-            (true, None) => without.to_owned(),
-        };
-        because.push(Reason { effect, why });
-        allowed && cause.is_some()
-    };
-    let still = "nothing moves relative to the camera or to a lamp";
-    let moving = moving.as_deref();
-    let geometry = call("geometry", switches.geometry == Switch::Auto, moving, still);
-    let doppler = call("doppler", switches.doppler == Switch::Auto, moving, still);
-    let beamed = call("beaming", switches.beaming != Beaming::Off, moving, still);
-    let thermal = call(
-        "thermal",
-        switches.thermal == Switch::Auto,
-        hot.as_deref(),
-        "no material is above 0 K",
-    );
-    let shadows = call(
-        "shadows",
-        switches.shadows == Switch::Auto,
-        lit.as_deref(),
-        "there is no lamp",
-    );
-    let followed = switches.bounces > 0;
-    let mirrors = weighted(shot, frame, |m| m.mirror.as_ref().map(|m| &m.weight));
-    let mirrors = mirrors.map(|name| format!("material \"{name}\" is a mirror"));
-    let mirror = call(
-        "mirror",
-        followed,
-        mirrors.as_deref(),
-        "no material is a mirror",
-    );
-    let glass = weighted(shot, frame, |m| m.refraction.as_ref().map(|r| &r.weight));
-    let glass = glass.map(|name| format!("material \"{name}\" lets light through"));
-    let refraction = call(
-        "refraction",
-        followed,
-        glass.as_deref(),
-        "no material is glass",
-    );
-    let beaming = if beamed {
-        switches.beaming
-    } else {
-        Beaming::Off
-    };
-    Ok(ActiveEffects {
-        geometry,
-        doppler,
-        beaming,
-        thermal,
-        shadows,
-        mirror,
-        refraction,
-        because,
-    })
+impl ActiveEffects {
+    /// How many effects that is.
+    pub fn count(&self) -> usize {
+        self.all().into_iter().filter(|(_, active)| *active).count()
+    }
+
+    /// Names of the effects, in the order in which they are told.
+    pub fn names(&self) -> Vec<String> {
+        let active = self.all().into_iter().filter(|(_, active)| *active);
+        active.map(|(name, _)| name.to_owned()).collect()
+    }
+
+    /// Every effect's name, and whether it is simulated.
+    fn all(&self) -> [(&'static str, bool); 7] {
+        // By all their keys: one that is new does not compile until it has a name.
+        let Self {
+            geometry,
+            doppler,
+            beaming,
+            thermal,
+            shadows,
+            mirror,
+            refraction,
+            reasons: _,
+        } = self;
+        [
+            ("geometry", *geometry),
+            ("doppler", *doppler),
+            ("beaming", *beaming != Beaming::Off),
+            ("thermal", *thermal),
+            ("shadows", *shadows),
+            ("mirror", *mirror),
+            ("refraction", *refraction),
+        ]
+    }
 }
 
-/// The first two things that move relative to each other.
-fn relative_motion(shot: &Shot, frame: u32) -> Result<Option<String>, MotionError> {
-    let camera = celerity(shot, "camera", frame)?;
-    let sky = (!is_black(shot, frame)).then(|| {
-        (
-            "the background".to_owned(),
-            shot.background.worldline.as_deref().unwrap_or("camera"),
-        )
-    });
-    let models = shot.model.iter().map(|model| {
-        let name = model
-            .name
-            .clone()
-            .unwrap_or_else(|| model.file.display().to_string());
-        (
-            format!("model \"{name}\""),
-            model.worldline.as_deref().unwrap_or("lab"),
-        )
-    });
-    let lights = shot.light.iter().enumerate().map(|(i, light)| {
-        let name = light
-            .name
-            .as_ref()
-            .map_or_else(|| format!("light {}", i + 1), Clone::clone);
-        (name, light.worldline.as_deref().unwrap_or("lab"))
-    });
-    for (thing, worldline) in models.chain(lights).chain(sky) {
-        let own = celerity(shot, worldline, frame)?;
-        if own != camera {
-            return Ok(Some(describe(&thing, own.seen_from(camera))));
+impl Frame<'_> {
+    /// The effects that the frame calls for under the author's `switches`: [`Frame::effects`], or
+    /// those of a splice.
+    pub fn active_effects(&self, switches: &Effects) -> ActiveEffects {
+        let moving = self.relative_motion();
+        let hot = self.hot_material();
+        let lit = self.lamps();
+        let mut reasons = Vec::new();
+        let mut call = |effect, allowed: bool, cause: Option<&str>, without: &str| {
+            let why = match (allowed, cause) {
+                (false, _) => "off in the shot".to_owned(),
+                (true, Some(cause)) => cause.to_owned(),
+                (true, None) => without.to_owned(),
+            };
+            reasons.push(Reason { effect, why });
+            allowed && cause.is_some()
+        };
+        let still = "nothing moves relative to the camera or to a lamp";
+        let moving = moving.as_deref();
+        let geometry = call("geometry", switches.geometry == Switch::Auto, moving, still);
+        let doppler = call("doppler", switches.doppler == Switch::Auto, moving, still);
+        let beamed = call("beaming", switches.beaming != Beaming::Off, moving, still);
+        let thermal = call(
+            "thermal",
+            switches.thermal == Switch::Auto,
+            hot.as_deref(),
+            "no material is above 0 K",
+        );
+        let shadows = call(
+            "shadows",
+            switches.shadows == Switch::Auto,
+            lit.as_deref(),
+            "there is no lamp",
+        );
+        let followed = switches.bounces > 0;
+        let mirror = call(
+            "mirror",
+            followed,
+            self.mirror().as_deref(),
+            "no material is a mirror",
+        );
+        let refraction = call(
+            "refraction",
+            followed,
+            self.glass().as_deref(),
+            "no material is glass",
+        );
+        let beaming = match beamed {
+            true => switches.beaming,
+            false => Beaming::Off,
+        };
+        ActiveEffects {
+            geometry,
+            doppler,
+            beaming,
+            thermal,
+            shadows,
+            mirror,
+            refraction,
+            reasons,
         }
     }
-    Ok(None)
-}
 
-fn describe(thing: &str, w: Celerity) -> String {
-    let lorentz_factor = w.lorentz_factor();
-    let beta = w.beta().length();
-    if beta < 0.999 {
-        format!("{thing} moves at {beta:.6} c relative to the camera")
-    } else {
-        format!(
-            "{thing} moves relative to the camera with a Lorentz factor of {lorentz_factor:.6e}"
-        )
+    /// Names of the effects that are simulated in the frame, in all of it or in a splice.
+    pub fn active_names(&self) -> Vec<String> {
+        let switches = self.splices.iter().map(|splice| &splice.effects);
+        let mut names = self.active_effects(&self.effects).all();
+        for switches in switches {
+            let own = self.active_effects(switches).all();
+            for ((_, active), (_, also)) in names.iter_mut().zip(own) {
+                *active |= also;
+            }
+        }
+        let active = names.into_iter().filter(|(_, active)| *active);
+        active.map(|(name, _)| name.to_owned()).collect()
     }
-}
 
-/// Whether the background is surely black in this frame.
-pub(super) fn is_black(shot: &Shot, frame: u32) -> bool {
-    let zero = |track: &Track<f64>| track.at(frame, shot.shot.frames) == 0.0;
-    let background = &shot.background;
-    if background.stars.is_some() {
-        return false;
+    /// The author's switches that hold in a row of the image: those of the last splice that covers it,
+    /// or the shot's.
+    pub fn effects_at(&self, row: u32) -> Effects {
+        let [_, height] = self.image.size;
+        let mut splices = self.splices.iter().rev();
+        let splice = splices.find(|splice| splice.rows_of(height).contains(&row));
+        splice.map_or(self.effects, |splice| splice.effects)
     }
-    if background.scale.as_ref().is_some_and(zero) {
-        return true;
-    }
-    match &background.spectrum {
-        None => background.image.is_none(),
-        Some(SpectrumValue::Number(track)) => zero(track),
-        Some(_) => false,
-    }
-}
 
-fn hot_material(shot: &Shot, frame: u32) -> Option<String> {
-    let temperature = |material: &Material| {
-        let track = material.thermal.as_ref()?.temperature.as_ref()?;
-        Some(track.at(frame, shot.shot.frames)).filter(|t| *t > 0.0)
-    };
-    shot.material.iter().find_map(|(name, material)| {
-        temperature(material).map(|t| format!("material \"{name}\" is at {t} K"))
-    })
-}
+    /// Places of the worldlines that something to see rides on, each with what it is.
+    pub(super) fn riders(&self) -> impl Iterator<Item = (Rider<'_>, usize)> {
+        let models = self.models.iter();
+        let models = models.map(|model| (Rider::Model(&model.name), model.worldline));
+        let lights = self.lights.iter();
+        let lights = lights.map(|light| (Rider::Light(&light.name), light.worldline));
+        let sky =
+            (!self.background.is_black()).then_some((Rider::Background, self.background.worldline));
+        models.chain(lights).chain(sky)
+    }
 
-/// The first material whose term has a weight in this frame; without one of its own it is 1.
-fn weighted(
-    shot: &Shot,
-    frame: u32,
-    weight: impl Fn(&Material) -> Option<&Option<Track<f64>>>,
-) -> Option<&str> {
-    let has_weight = |material: &Material| {
-        weight(material).is_some_and(|weight| {
-            weight
-                .as_ref()
-                .is_none_or(|track| track.at(frame, shot.shot.frames) > 0.0)
+    /// The first thing that moves relative to the camera, in words.
+    fn relative_motion(&self) -> Option<String> {
+        let camera = self.celerity(self.camera.worldline);
+        self.riders().find_map(|(rider, worldline)| {
+            let own = self.celerity(worldline);
+            (own != camera).then(|| rider.describe(own.seen_from(camera)))
         })
-    };
-    shot.material
-        .iter()
-        .find(|(_, material)| has_weight(material))
-        .map(|(name, _)| name.as_str())
+    }
+
+    fn hot_material(&self) -> Option<String> {
+        self.materials.iter().find_map(|(name, material)| {
+            let kelvin = material.thermal.map(|thermal| thermal.temperature_k);
+            let kelvin = kelvin.filter(|kelvin| *kelvin > 0.0)?;
+            Some(format!("material \"{name}\" is at {kelvin} K"))
+        })
+    }
+
+    fn mirror(&self) -> Option<String> {
+        self.materials.iter().find_map(|(name, material)| {
+            let is_mirror = material.mirror?.has_weight();
+            is_mirror.then(|| format!("material \"{name}\" is a mirror"))
+        })
+    }
+
+    fn glass(&self) -> Option<String> {
+        self.materials.iter().find_map(|(name, material)| {
+            let is_glass = material.refraction?.term.has_weight();
+            is_glass.then(|| format!("material \"{name}\" lets light through"))
+        })
+    }
+
+    /// Lamps of the shot, or of model files that may hold some.
+    fn lamps(&self) -> Option<String> {
+        match self.lights.len() {
+            0 => {
+                let some = self.models.iter().any(Model::may_hold_lamps);
+                some.then(|| "a model file may hold lamps".to_owned())
+            }
+            1 => Some("there is one lamp".to_owned()),
+            n => Some(format!("there are {n} lamps")),
+        }
+    }
 }
 
-/// Lamps of the shot, or of model files that may hold some.
-fn lamps(shot: &Shot) -> Option<String> {
-    match shot.light.len() {
-        0 => shot
-            .model
-            .iter()
-            .any(|model| {
-                model
-                    .file
-                    .extension()
-                    .is_none_or(|e| !e.eq_ignore_ascii_case("obj"))
-            })
-            .then(|| "a model file may hold lamps".to_owned()),
-        1 => Some("there is one lamp".to_owned()),
-        n => Some(format!("there are {n} lamps")),
+/// A thing that rides on a worldline.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum Rider<'a> {
+    Model(&'a str),
+    Light(&'a str),
+    Background,
+}
+
+impl Rider<'_> {
+    /// A sentence about its celerity as the camera sees it.
+    fn describe(self, relative: Celerity) -> String {
+        let thing = match self {
+            Self::Model(name) => format!("model \"{name}\""),
+            Self::Light(name) => name.to_owned(),
+            Self::Background => "the background".to_owned(),
+        };
+        let lorentz_factor = relative.lorentz_factor();
+        let beta = relative.beta().length();
+        if beta < 0.999 {
+            format!("{thing} moves at {beta:.6} c relative to the camera")
+        } else {
+            format!(
+                "{thing} moves relative to the camera with a Lorentz factor of {lorentz_factor:.6e}"
+            )
+        }
     }
 }

@@ -1,118 +1,250 @@
-//! What of a frame its shade trees follow from, without what shading alone reads: frames in which
-//! it is equal share one trace.
+//! Trace keys: frames in which they are equal have the same shade trees, and are traced once.
 //!
-//! Temperatures, emission, colors, exposure and the switches of what light does on its way are
-//! shading's. Of a term of a material only counts that it is there, of a lamp that it shines, of the
-//! sky that it is not black. Mirrors and glass count in full: their reflectances decide which
-//! branches are worth following. Where it cannot be told without a spectrum's numbers whether
-//! something is there, these count as well: frames may then be traced apart that need not be, never
+//! A key is a hash of what tracing reads, without what shading alone does: temperatures, emission,
+//! colors, exposure, and the effects on light on its way. Of a material's term counts only that it is
+//! there, of a lamp that it shines, of the sky that it is not black. Mirrors and glass count in full:
+//! their reflectances decide which branches are worth following. Where presence depends on a
+//! spectrum's numbers, these count as well: frames may then be traced apart that need not be, never
 //! the other way round.
 
 use super::digests::Digests;
-use super::fingerprint::Resolution;
-use super::fingerprint_inputs::aspect;
-use crate::shot::{
-    Accuracy, Background, Clock, Effects, Format, Light, Material, Model, Moving, Refraction, Shot,
-    SpectrumTable, SpectrumValue, Splice, SpliceEffects, Track,
-};
-use serde_json::{Value, json};
-use std::borrow::Cow;
-use std::collections::BTreeMap;
 
-/// Lamps of fewer candela or lux may be lost in rounding.
-const FAINTEST: f64 = 1e-6;
+use super::hasher::Hasher;
+use super::light::{Amount, Background, Light, Shines};
+use super::material::{Highlight, Material, Presence, Refraction, Term};
+use super::model::{Array, Model};
+use super::settings::{Resolution, Splice, aspect};
+use super::values::{Frame, Frames, Moving};
+use super::{camera, worldline};
+use crate::relativity;
+use crate::shot::{Accuracy, Effects, Format, Image, Layer, Output};
 
-/// Spectra beyond this may make a lamp's sum overflow.
-const LARGEST: f64 = 1e200;
+/// Frames in which this is equal have the same shade trees. As text it has 16 hexadecimal digits.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct TraceKey(u64);
 
-/// Below this a black body's curve, 1 at some wavelength, is beyond all numbers at others, K.
-const COLDEST: f64 = 100.0;
+impl TraceKey {
+    /// The trace key of a frame, whose files `digests` are of, at a resolution.
+    pub fn new(frame: &Frame<'_>, digests: &Digests, resolution: Resolution) -> Self {
+        Self::of(&sections(frame, digests, resolution))
+    }
 
-/// A part of what shade trees follow from, by where it stands in the shot.
+    fn of(sections: &Sections) -> Self {
+        let mut first = [0; 8];
+        let all = blake3::hash(sections.as_flattened());
+        first.copy_from_slice(&all.as_bytes()[..8]);
+        Self(u64::from_be_bytes(first))
+    }
+}
+
+/// Hashes by [`Section`].
+type Sections = [[u8; 32]; Section::ALL.len()];
+
+fn sections(frame: &Frame<'_>, digests: &Digests, resolution: Resolution) -> Sections {
+    let traced = Traced {
+        frame,
+        digests,
+        resolution,
+    };
+    Section::ALL.map(|section| traced.hash(section))
+}
+
+impl std::fmt::Display for TraceKey {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "{:016x}", self.0)
+    }
+}
+
+/// The trace keys of a shot's frames one after the other: of each, only the sections that move are
+/// evaluated and hashed again. A microsecond or a few each.
+#[derive(Debug, Clone)]
+pub struct TraceKeys<'a> {
+    frames: Frames<'a>,
+    digests: &'a Digests,
+    resolution: Resolution,
+    sections: Sections,
+}
+
+impl<'a> TraceKeys<'a> {
+    pub(super) fn new(
+        mut frames: Frames<'a>,
+        digests: &'a Digests,
+        resolution: Resolution,
+    ) -> Self {
+        Self {
+            sections: sections(frames.unchecked(1), digests, resolution),
+            frames,
+            digests,
+            resolution,
+        }
+    }
+
+    /// The trace key of frame number `frame`.
+    pub fn of(&mut self, frame: u32) -> TraceKey {
+        let moving = self.frames.moving();
+        let traced = Traced {
+            frame: self.frames.unchecked(frame),
+            digests: self.digests,
+            resolution: self.resolution,
+        };
+        for (section, hash) in Section::ALL.into_iter().zip(&mut self.sections) {
+            if section.moves(moving) {
+                *hash = traced.hash(section);
+            }
+        }
+        TraceKey::of(&self.sections)
+    }
+}
+
+/// A part of what shade trees follow from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Section {
-    Resolution,
-    Film,
-    Clock,
+enum Section {
+    Time,
     Camera,
     Worldlines,
     Models,
     Materials,
     Lamps,
     Sky,
-    Effects,
-    Splices,
-    Accuracy,
+    Settings,
 }
 
 impl Section {
     /// All of them, in the order in which they are hashed.
-    pub(super) const ALL: [Self; 12] = [
-        Self::Resolution,
-        Self::Film,
-        Self::Clock,
+    const ALL: [Self; 8] = [
+        Self::Time,
         Self::Camera,
         Self::Worldlines,
         Self::Models,
         Self::Materials,
         Self::Lamps,
         Self::Sky,
-        Self::Effects,
-        Self::Splices,
-        Self::Accuracy,
+        Self::Settings,
     ];
 
-    /// Whether it may be another in each frame of a shot that moves so.
-    pub(super) fn moves(self, moving: Moving) -> bool {
+    /// Whether it may be another in each frame.
+    fn moves(self, moving: Moving) -> bool {
         match self {
-            Self::Clock => moving.time,
+            Self::Time => moving.time,
             Self::Camera => moving.camera,
             Self::Worldlines => moving.worldlines,
-            // "camera" as a worldline is a name, which does not move.
             Self::Models => moving.models,
-            Self::Materials => moving.materials || moving.spectra,
-            Self::Lamps => moving.lights || moving.spectra,
-            Self::Sky => moving.background || moving.spectra,
-            Self::Resolution | Self::Film | Self::Effects | Self::Splices | Self::Accuracy => false,
+            Self::Materials => moving.materials,
+            Self::Lamps => moving.lights,
+            Self::Sky => moving.background,
+            Self::Settings => false,
         }
     }
 }
 
-/// A value as JSON.
-fn text(value: &impl serde::Serialize) -> String {
-    serde_json::to_string(value).expect("all keys of a shot are text")
-}
-
-fn splice(splice: &Splice) -> Value {
-    let Splice { rows, effects } = splice;
-    let SpliceEffects {
-        geometry,
-        doppler: _,
-        beaming: _,
-        thermal: _,
-        shadows,
-        bounces,
-    } = effects;
-    json!([rows, geometry, shadows, bounces])
-}
-
-/// The one value of a track of a shot of one frame.
-fn now(track: &Track<f64>) -> f64 {
-    track.at(1, 1)
-}
-
-/// What the shade trees of a shot of one frame follow from.
-pub(super) struct Traced<'a> {
-    pub(super) still: &'a Shot,
-    pub(super) digests: &'a Digests,
-    pub(super) picture: Resolution,
+/// What the shade trees of a frame follow from. Structs are taken apart by all their keys: one that
+/// is new does not compile until it is placed.
+struct Traced<'a> {
+    frame: &'a Frame<'a>,
+    digests: &'a Digests,
+    resolution: Resolution,
 }
 
 impl Traced<'_> {
-    /// One section of it, as JSON.
-    pub(super) fn text(&self, section: Section) -> String {
-        let (still, picture) = (self.still, self.picture);
-        // By all their keys: one that is new does not compile until it is placed.
+    fn hash(&self, section: Section) -> [u8; 32] {
+        let mut hasher = Hasher::default();
+        let Frame {
+            number: _,
+            title: _,
+            fps: _,
+            time_s: _,
+            lab_time,
+            worldlines,
+            camera,
+            models,
+            body_order,
+            materials,
+            lights,
+            background,
+            effects,
+            splices,
+            image,
+            sensor: _,
+            exposure_stops: _,
+            accuracy,
+            output,
+            insets: _,
+            shot: _,
+            faults: _,
+        } = self.frame;
+        match section {
+            Section::Time => {
+                hasher.number(*lab_time);
+            }
+            Section::Camera => self.camera(&mut hasher, camera),
+            Section::Worldlines => worldlines.iter().for_each(|line| {
+                // Names order bodies, which `body_order` tells.
+                let worldline::Worldline { name: _, motion } = line;
+                let relativity::Worldline { celerity, origin } = motion;
+                hasher.vector(celerity.vector());
+                hasher.number(origin.t).vector(origin.x);
+            }),
+            Section::Models => {
+                hasher.count(body_order.len());
+                body_order.iter().for_each(|place| {
+                    hasher.count(*place);
+                });
+                models.iter().for_each(|m| self.model(&mut hasher, m));
+            }
+            Section::Materials => {
+                let mut sorted: Vec<_> = materials.iter().collect();
+                sorted.sort_unstable_by_key(|(name, _)| **name);
+                for (name, material) in sorted {
+                    self.material(hasher.text(name), material);
+                }
+            }
+            Section::Lamps => lights.iter().for_each(|l| self.lamp(&mut hasher, l)),
+            Section::Sky => self.sky(&mut hasher, background),
+            Section::Settings => {
+                self.resolution(&mut hasher, image, output);
+                let Accuracy {
+                    spectra: _,
+                    wavelengths: _,
+                    line_spacing: _,
+                    tracing,
+                    cutoff,
+                } = accuracy;
+                hasher.kind(*tracing as u8).number(*cutoff);
+                self.effects(&mut hasher, effects);
+                for Splice { rows, effects } in splices {
+                    hasher.number(rows[0]).number(rows[1]);
+                    self.effects(&mut hasher, effects);
+                }
+            }
+        }
+        *hasher.finish().as_bytes()
+    }
+
+    fn resolution(&self, hasher: &mut Hasher, image: &Image, output: &Output) {
+        let Resolution { size, samples } = self.resolution;
+        let Image {
+            size: whole,
+            samples: _,
+            filter,
+        } = image;
+        let Output {
+            formats,
+            layers,
+            depth: _,
+        } = output;
+        for side in size.into_iter().chain(aspect(*whole)) {
+            hasher.whole(side);
+        }
+        hasher.whole(samples).kind(*filter as u8);
+        let exr = formats.contains(&Format::Exr);
+        let layers: &[Layer] = if exr { layers } else { &[] };
+        hasher.flag(exr).count(layers.len());
+        layers.iter().for_each(|layer| {
+            hasher.kind(*layer as u8);
+        });
+    }
+
+    fn effects(&self, hasher: &mut Hasher, effects: &Effects) {
         let Effects {
             geometry,
             doppler: _,
@@ -120,89 +252,74 @@ impl Traced<'_> {
             thermal: _,
             shadows,
             bounces,
-        } = still.effects;
-        let Accuracy {
-            spectra: _,
-            wavelengths: _,
-            line_spacing: _,
-            tracing,
-            cutoff,
-        } = still.accuracy;
-        let Clock {
-            title: _,
-            frames: _,
-            fps: _,
-            time,
-            light_speed,
-        } = &still.shot;
-        let list = match section {
-            Section::Resolution => {
-                json!([picture.size, [picture.samples], aspect(still.image.size)])
-            }
-            Section::Film => {
-                let exr = still.output.formats.contains(&Format::Exr);
-                json!([still.image.filter, exr.then_some(&still.output.layers)])
-            }
-            Section::Clock => json!([time, light_speed]),
-            Section::Camera => return text(&still.camera),
-            Section::Worldlines => return text(&still.worldline.iter().collect::<Vec<_>>()),
-            Section::Models => still.model.iter().map(|m| self.model(m)).collect(),
-            Section::Materials => {
-                let materials = still.material.iter();
-                let materials = materials.map(|(name, material)| (name, self.material(material)));
-                json!(materials.collect::<BTreeMap<&String, Value>>())
-            }
-            Section::Lamps => still.light.iter().filter_map(|l| self.lamp(l)).collect(),
-            Section::Sky => self.sky(&still.background),
-            Section::Effects => json!([geometry, shadows, bounces]),
-            Section::Splices => still.splice.iter().map(splice).collect(),
-            Section::Accuracy => json!([tracing, cutoff]),
-        };
-        list.to_string()
+        } = effects;
+        let switches = hasher.kind(*geometry as u8).kind(*shadows as u8);
+        switches.whole(*bounces);
     }
 
-    fn model(&self, model: &Model) -> Value {
+    fn camera(&self, hasher: &mut Hasher, camera: &camera::Camera) {
+        let camera::Camera {
+            worldline,
+            position,
+            aim,
+            roll_deg,
+            pan_deg,
+            tilt_deg,
+            hfov_deg,
+            vfov_deg,
+            projection,
+        } = camera;
+        hasher.count(*worldline).vector(*position);
+        match aim {
+            camera::Aim::At(point) => hasher.kind(0).vector(*point),
+            camera::Aim::Along { yaw_deg, pitch_deg } => {
+                hasher.kind(1).number(*yaw_deg).number(*pitch_deg)
+            }
+        };
+        hasher.number(*roll_deg).number(*pan_deg).number(*tilt_deg);
+        hasher.given(*hfov_deg).given(*vfov_deg);
+        hasher.kind(*projection as u8);
+    }
+
+    fn model(&self, hasher: &mut Hasher, model: &Model<'_>) {
         let Model {
-            name: _,
+            name: _, // it orders bodies, which `body_order` tells
             file,
-            worldline: _,
+            worldline,
             translate,
-            rotate,
+            rotate_deg,
             scale,
             array,
             material,
             materials,
             light_units: _,
         } = model;
-        let models = &self.still.model;
         // Materials of one file are the same ones, of two files with one content they are not.
-        let first = models.iter().position(|other| other.file == *file);
-        let own = self.called(model);
-        // Where two have one name, bodies are ordered by all that is said of them.
-        let namesakes = models.iter().filter(|other| self.called(other) == own);
-        let tie = (namesakes.count() > 1).then(|| format!("{model:?}"));
-        json!([
-            own,
-            first,
-            self.digests.of(file),
-            tie,
-            translate,
-            rotate,
-            scale,
-            array,
-            material,
-            materials,
-        ])
+        let mut models = self.frame.models.iter();
+        let first = models.position(|other| other.file == *file);
+        hasher.count(first.unwrap_or_default());
+        hasher.texts(&self.digests.of(file)).count(*worldline);
+        hasher.vector(*translate).vector(*rotate_deg).vector(*scale);
+        hasher.flag(array.is_some());
+        if let Some(Array {
+            count,
+            step,
+            centered,
+        }) = array
+        {
+            count.iter().for_each(|copies| {
+                hasher.whole(*copies);
+            });
+            hasher.vector(*step).flag(*centered);
+        }
+        let whole: Vec<&str> = material.iter().copied().collect();
+        hasher.texts(&whole).count(materials.len());
+        for (of_file, own) in *materials {
+            hasher.text(of_file).text(own);
+        }
     }
 
-    /// A model's worldline and name, by which bodies are ordered.
-    fn called<'a>(&'a self, model: &'a Model) -> (&'a str, Cow<'a, str>) {
-        let stem = || model.file.file_stem().unwrap_or_default().to_string_lossy();
-        let name = model.name.as_deref().map_or_else(stem, Cow::Borrowed);
-        (self.worldline(&model.worldline, "lab"), name)
-    }
-
-    fn material(&self, material: &Material) -> Value {
+    fn material(&self, hasher: &mut Hasher, material: &Material<'_>) {
         let Material {
             diffuse,
             highlight,
@@ -211,188 +328,82 @@ impl Traced<'_> {
             emission: _,
             thermal: _,
         } = material;
-        let diffuse = diffuse.as_ref().map(|d| self.term(&d.weight, &d.spectrum));
-        let highlight = highlight.as_ref().map(|h| {
-            let term = self.term(&h.weight, &h.spectrum);
-            (term != Term::Gone).then(|| (json!(term as u8), &h.exponent))
-        });
-        let mirror = mirror
-            .as_ref()
-            .filter(|m| self.term(&m.weight, &m.spectrum) != Term::Gone)
-            .map(|m| json!([m.weight, self.content(&m.spectrum)]));
-        let glass =
-            |r: &&Refraction| mirror.is_some() || self.term(&r.weight, &r.spectrum) != Term::Gone;
-        let refraction = refraction
-            .as_ref()
-            .filter(glass)
-            .map(|r| json!([r.weight, self.content(&r.spectrum), r.ior]));
-        json!([
-            diffuse.map(|term| term as u8),
-            highlight,
-            mirror,
-            refraction
-        ])
-    }
-
-    /// Whether a term that its author names is left after pruning.
-    fn term(&self, weight: &Option<Track<f64>>, spectrum: &Option<SpectrumValue>) -> Term {
-        let zero = |value| matches!(self.curve(value), Curve::Number(v) if v == 0.0);
-        match (weight, spectrum) {
-            (Some(weight), _) if now(weight) <= 0.0 => Term::Gone,
-            (_, Some(spectrum)) if zero(spectrum) => Term::Gone,
-            (_, Some(_)) => Term::There,
-            (_, None) => Term::AsInTheFile,
+        let presence = |term: &Option<Term<'_>>| term.map(Term::presence);
+        let is_there = |term: &Option<Term<'_>>| {
+            presence(term).is_some_and(|presence| presence != Presence::Gone)
+        };
+        hasher.flag(diffuse.is_some());
+        if let Some(presence) = presence(diffuse) {
+            hasher.kind(presence as u8);
+        }
+        let highlight = highlight.filter(|h| h.term.presence() != Presence::Gone);
+        hasher.flag(highlight.is_some());
+        if let Some(Highlight { term, exponent }) = highlight {
+            hasher.kind(term.presence() as u8).given(exponent);
+        }
+        hasher.flag(is_there(mirror));
+        if let Some(mirror) = mirror.filter(|_| is_there(mirror)) {
+            self.term(hasher, mirror);
+        }
+        // Without transmittance it is still a boundary, which gives a mirror its share.
+        let refraction =
+            refraction.filter(|r| is_there(mirror) || r.term.presence() != Presence::Gone);
+        hasher.flag(refraction.is_some());
+        if let Some(Refraction { term, ior }) = refraction {
+            self.term(hasher, term);
+            hasher.given(ior);
         }
     }
 
-    /// The worldline that stands behind a name; "camera" is another for one of them.
-    fn worldline<'a>(&'a self, name: &'a Option<String>, default: &'a str) -> &'a str {
-        match name.as_deref().unwrap_or(default) {
-            "camera" => self.still.camera.worldline.as_deref().unwrap_or("lab"),
-            name => name,
+    fn term(&self, hasher: &mut Hasher, Term { weight, spectrum }: Term<'_>) {
+        hasher.given(weight).flag(spectrum.is_some());
+        if let Some(spectrum) = spectrum {
+            spectrum.hash(hasher, self.digests);
         }
     }
 
     /// A lamp, if it shines.
-    fn lamp(&self, light: &Light) -> Option<Value> {
+    fn lamp(&self, hasher: &mut Hasher, light: &Light<'_>) {
         let Light {
-            kind,
             name: _,
+            kind,
             worldline,
             position,
             direction,
-            inner,
-            outer,
-            intensity,
-            scale,
+            inner_deg,
+            outer_deg,
+            amount: _, // as far as `shines` says
             spectrum,
         } = light;
-        let amount = scale.as_ref().or(intensity.as_ref()).map_or(0.0, now);
-        if amount <= 0.0 {
-            return None;
+        let shines = light.shines();
+        if shines == Shines::Never {
+            return;
         }
-        let surely = scale.is_some()
-            || amount >= FAINTEST && spectrum.as_ref().is_none_or(|s| self.is_tame(s));
-        let perhaps = (!surely).then(|| json!([amount, self.content(spectrum)]));
-        Some(json!([
-            kind,
-            self.worldline(worldline, "lab"),
-            position,
-            direction,
-            inner,
-            outer,
-            perhaps,
-        ]))
+        hasher.kind(*kind as u8).count(*worldline);
+        hasher.vector(*position).vector(*direction);
+        hasher.number(*inner_deg).number(*outer_deg);
+        hasher.flag(shines == Shines::Surely);
+        if let Shines::Perhaps(Amount::Photometric(amount) | Amount::Spectral(amount)) = shines {
+            spectrum.hash(hasher.number(amount), self.digests);
+        }
     }
 
-    /// The sky: None where it is black.
-    fn sky(&self, sky: &Background) -> Value {
+    /// The sky, if it is not black.
+    fn sky(&self, hasher: &mut Hasher, sky: &Background<'_>) {
         let Background {
             worldline,
             spectrum,
             image,
-            scale,
+            scale: _, // as far as `is_black` says
             stars,
         } = sky;
-        let scaled = scale.as_ref().is_none_or(|scale| now(scale) > 0.0);
-        let lit = match spectrum {
-            _ if stars.is_some() => json!(true),
-            _ if !scaled => json!(false),
-            _ if image.is_some() => json!(true),
-            None => json!(false),
-            Some(value) => match self.curve(value) {
-                Curve::Number(v) => json!(v > 0.0),
-                Curve::Table(table) if !surely_lit(table) => self.content(spectrum),
-                Curve::Table(_) | Curve::Illuminant(_) => json!(true),
-            },
-        };
-        if lit == false {
-            Value::Null
-        } else {
-            json!([self.worldline(worldline, "camera"), lit])
+        if sky.is_black() {
+            return;
+        }
+        hasher.count(*worldline);
+        let surely = stars.is_some() || image.is_some();
+        if let Some(spectrum) = spectrum.filter(|s| !surely && !s.is_surely_lit()) {
+            spectrum.hash(hasher, self.digests);
         }
     }
-
-    /// What stands behind a spectrum's name.
-    fn curve<'a>(&'a self, value: &'a SpectrumValue) -> Curve<'a> {
-        let of_table = |table: &'a SpectrumTable| match &table.constant {
-            Some(value) if table.points.is_none() => Curve::Number(now(value)),
-            _ => Curve::Table(table),
-        };
-        match value {
-            SpectrumValue::Number(value) => Curve::Number(now(value)),
-            SpectrumValue::Table(table) => of_table(table),
-            SpectrumValue::Name(name) => match self.still.spectrum.get(name) {
-                Some(table) => of_table(table),
-                None => Curve::Illuminant(name),
-            },
-        }
-    }
-
-    /// A spectrum without its name and that of its file.
-    fn content(&self, value: &Option<SpectrumValue>) -> Value {
-        match value.as_ref().map(|value| self.curve(value)) {
-            None => Value::Null,
-            Some(Curve::Number(value)) => json!(value),
-            Some(Curve::Illuminant(name)) => json!(name),
-            Some(Curve::Table(table)) => {
-                let file = table.file.as_ref().map(|file| self.digests.of(file));
-                let nameless = SpectrumTable {
-                    file: None,
-                    ..table.clone()
-                };
-                json!([nameless, file])
-            }
-        }
-    }
-
-    /// Whether a lamp of this spectrum and an ordinary amount surely shines.
-    fn is_tame(&self, value: &SpectrumValue) -> bool {
-        match self.curve(value) {
-            Curve::Number(value) => value < LARGEST,
-            Curve::Illuminant(_) => true,
-            Curve::Table(table) => {
-                let tame = |points: &Vec<[f64; 2]>| points.iter().all(|p| p[1] < LARGEST);
-                let hot = |kelvin: &Track<f64>| now(kelvin) >= COLDEST;
-                table.file.is_none()
-                    && table.unit_at.is_none()
-                    && table.points.as_ref().is_none_or(tame)
-                    && table.blackbody.as_ref().is_none_or(hot)
-            }
-        }
-    }
-}
-
-/// A term of a material.
-#[derive(Clone, Copy, PartialEq)]
-enum Term {
-    Gone,
-    There,
-    /// There, if the model file has a spectrum for it.
-    AsInTheFile,
-}
-
-/// A spectrum, its name looked up.
-enum Curve<'a> {
-    Number(f64),
-    Table(&'a SpectrumTable),
-    Illuminant(&'a str),
-}
-
-/// Whether a spectrum surely is not black.
-fn surely_lit(table: &SpectrumTable) -> bool {
-    let points = table.points.iter().flatten();
-    let mut values = points.map(|point| point[1]);
-    let hot = table
-        .blackbody
-        .as_ref()
-        .is_some_and(|kelvin| now(kelvin) >= COLDEST);
-    values.any(|value| value > 0.0)
-        || hot && table.unit_at.is_none()
-        || table.gaussian.is_some()
-        || table.illuminant.is_some()
-        || table
-            .rgb
-            .as_ref()
-            .is_some_and(|rgb| rgb.at(1, 1).iter().any(|v| *v > 0.01))
 }

@@ -13,10 +13,10 @@ use super::look;
 use super::plot::{SPACING, SURFACE, THERMAL_LIGHT, UNIT, curve, digits, peak, visible};
 use crate::film::Channels;
 use crate::film::plot::{Axis, Color, Panel, Plot, Scale, Stroke, round_up};
+use crate::frame::{Frame, Sensor};
 use crate::render::{self, View};
 use crate::scene::{Scene, Thermal};
 use crate::shade::Radiance;
-use crate::shot::{Sensor, Shot};
 use crate::spectrum::cie;
 use crate::trace::{Seen, ShadeTrees};
 
@@ -29,13 +29,19 @@ const BESIDE: f64 = 10.0;
 /// Most wavelengths of a curve: more than any picture has columns for it.
 const MOST: f64 = 8192.0;
 
-/// The plot of what the centre of `pixel`, which lies in the shot's image, sees in `view`. Exposure
+/// The plot of what the centre of `pixel`, which lies in the frame's image, sees in `view`. Exposure
 /// is in stops.
-pub fn inset(shot: &Shot, pixel: [u32; 2], view: &View<'_>, scene: &Scene, exposure: f64) -> Plot {
-    let band = band(shot.sensor.window);
+pub fn inset(
+    frame: &Frame<'_>,
+    pixel: [u32; 2],
+    view: &View<'_>,
+    scene: &Scene,
+    exposure: f64,
+) -> Plot {
+    let band = band(frame.sensor.window);
     let count = ((band[1] / band[0]).ln() / SPACING).ceil().min(MOST);
     let shader = view.shader_over(band, count as u32);
-    let (light, caption) = match look(shot, pixel, view, scene) {
+    let (light, caption) = match look(frame, pixel, view, scene) {
         Some((trees, _)) => (
             shader.radiance(&trees, trees.roots[0]),
             caption(&trees, view, scene),
@@ -43,7 +49,7 @@ pub fn inset(shot: &Shot, pixel: [u32; 2], view: &View<'_>, scene: &Scene, expos
         None => (Radiance::new(count as usize), "nothing is seen".to_owned()),
     };
     let sum = light.total();
-    let largest = (peak(&sum) * HEADROOM).max(white(shot, exposure));
+    let largest = (peak(&sum) * HEADROOM).max(white(frame, exposure));
     let nm = shader.wavelengths_nm();
     let line = |name: &str, color, width: f64, values| {
         curve(name, color, Stroke::Solid(width), &nm, values)
@@ -78,7 +84,7 @@ fn caption(trees: &ShadeTrees, view: &View<'_>, scene: &Scene) -> String {
         return format!("background, {doppler}");
     };
     let thermal = scene.materials[surface.material as usize].thermal.as_ref();
-    match thermal.filter(|_| view.called.thermal) {
+    match thermal.filter(|_| view.effects.thermal) {
         Some(Thermal { temperature_k, .. }) => {
             let decimals = usize::from(*temperature_k < 100.0);
             format!("{doppler}, T = {} K", digits(*temperature_k, decimals))
@@ -89,9 +95,9 @@ fn caption(trees: &ShadeTrees, view: &View<'_>, scene: &Scene) -> String {
 
 /// Spectral radiance of the even light that is just white in the picture, W·m⁻²·sr⁻¹·nm⁻¹; 0
 /// where nothing is.
-fn white(shot: &Shot, exposure: f64) -> f64 {
-    let Sensor { window, .. } = shot.sensor;
-    let of_one = match render::channels(shot) {
+fn white(frame: &Frame<'_>, exposure: f64) -> f64 {
+    let Sensor { window, .. } = frame.sensor;
+    let of_one = match render::channels(frame.sensor.color) {
         Channels::Xyz => {
             let inside = |nm| f64::from((window[0]..=window[1]).contains(&nm));
             cie::xyz_of(inside)[1]

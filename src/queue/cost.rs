@@ -8,8 +8,8 @@ use super::manifest::{Record, read_records};
 use super::memory::image_bytes;
 use super::names::Names;
 use super::reel::Reel;
-use crate::frame::{ActiveEffects, Resolution};
-use crate::shot::{Beaming, Format, Shot};
+use crate::frame::Resolution;
+use crate::shot::{Format, Shot};
 use std::collections::HashMap;
 use std::fs;
 use std::path::Path;
@@ -149,23 +149,6 @@ impl Costs {
     }
 }
 
-/// Names of the effects that are simulated, as [`Record::effects`] has them.
-pub fn effect_names(called: &ActiveEffects) -> Vec<String> {
-    [
-        ("geometry", called.geometry),
-        ("doppler", called.doppler),
-        ("beaming", called.beaming != Beaming::Off),
-        ("thermal", called.thermal),
-        ("shadows", called.shadows),
-        ("mirror", called.mirror),
-        ("refraction", called.refraction),
-    ]
-    .into_iter()
-    .filter(|(_, is_on)| *is_on)
-    .map(|(name, _)| name.to_owned())
-    .collect()
-}
-
 fn rays([width, height]: [u32; 2], samples: u32) -> f64 {
     f64::from(width) * f64::from(height) * f64::from(samples)
 }
@@ -186,7 +169,7 @@ fn rate_of(record: &Record) -> Option<Rate> {
 /// Bytes that the files of a frame take: as many as finished ones of this size on average, else by
 /// what pictures usually take.
 pub fn frame_bytes(reel: &Reel) -> u64 {
-    let picture = reel.keys.picture();
+    let picture = reel.keys.resolution();
     let alike = |record: &&Record| record.size == picture.size;
     let sizes: Vec<u64> = reel
         .records

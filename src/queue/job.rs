@@ -8,7 +8,7 @@ use super::deed::Deed;
 use super::ledger::Ledger;
 use super::manifest::Found;
 use super::memory::check_memory;
-use super::record::frame_effects;
+use super::record::active_names;
 use super::reel::{Glance, Reel, ReelError, Status};
 use super::shard::Shard;
 use super::shots::{Exposing, Prepared, Request};
@@ -93,7 +93,7 @@ impl Job {
             false => (Glance::default(), Status::Missing),
         });
         let statuses: Vec<_> = statuses.collect();
-        let traces = reel.keys.traces_of(frames);
+        let traces = reel.keys.trace_keys_of(frames);
         let chosen = frames.iter().zip(traces).zip(statuses);
         let chosen = chosen.map(|((frame, trace), (glance, status))| Chosen {
             frame: *frame,
@@ -243,8 +243,8 @@ impl Job {
             *sharing.entry(chosen.trace).or_default() += 1.0;
         }
         self.wanted(force).map(move |chosen| {
-            let effects = frame_effects(self.reel.shot(), chosen.frame);
-            let estimate = costs.estimate(&effects, self.reel.keys.picture());
+            let effects = active_names(self.reel.shot(), chosen.frame);
+            let estimate = costs.estimate(&effects, self.reel.keys.resolution());
             estimate.trace / sharing[&chosen.trace] + estimate.shade
         })
     }
@@ -270,7 +270,7 @@ impl Job {
 /// machine finds there, all deal alike.
 pub fn choose_shard(reels: &mut [(Reel, Vec<u32>)], shard: Shard) {
     let all = reels.iter();
-    let traces = all.flat_map(|(reel, frames)| reel.keys.traces_of(frames));
+    let traces = all.flat_map(|(reel, frames)| reel.keys.trace_keys_of(frames));
     let mut ours = shard.choose(traces).into_iter();
     for (_, frames) in reels {
         frames.retain(|_| ours.next() == Some(true));

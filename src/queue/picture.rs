@@ -2,9 +2,10 @@
 
 use super::inset::Seen;
 use crate::film::{self, EncodeError, Film, Metadata, SILENT, develop, exr};
+use crate::frame::{Frame, Sensor};
 use crate::render::{Enough, Member, development, enough_bounces};
 use crate::scene::Scene;
-use crate::shot::{Depth, Exposure, Format, Sensor, Sequence, Shot, Track};
+use crate::shot::{Depth, Exposure, Format, Sequence, Track};
 use crate::trace::Stage;
 
 /// The files of a frame: extension and content, and how many values had to be clamped.
@@ -36,32 +37,30 @@ pub struct Taken<'a> {
 /// # Errors
 /// When an encoder refuses.
 pub fn pictures(
-    shot: &Shot,
-    frame: u32,
+    frame: &Frame<'_>,
     scene: &Scene,
     stage: &Stage,
     film: &Film,
     taken: Taken<'_>,
 ) -> Result<Pictures, EncodeError> {
-    let development = development(shot, taken.exposure_stops);
+    let development = development(frame.sensor.color, taken.exposure_stops);
     let developed = develop(film, &development);
     let metadata = Metadata {
         channels: film.channels,
-        window_nm: window_nm(&shot.sensor),
-        ..metadata(shot, frame, scene, taken)
+        window_nm: window_nm(frame.sensor),
+        ..metadata(frame, scene, taken)
     };
     let (width, height) = (film.width, film.height);
     let mut files = Vec::new();
     let mut saturated = developed.saturated;
     let cut = film.left_out.share();
-    let member = Member { shot, frame, scene };
+    let member = Member { frame, scene };
     let mut warnings: Vec<String> = cut_light(member, stage, film).into_iter().collect();
-    for format in &shot.output.formats {
+    for format in &frame.output.formats {
         files.push(match format {
             Format::Png => {
                 let mut rgb = film::png::to_rgb8(&developed, development.encode);
                 let seen = Seen {
-                    shot,
                     frame,
                     scene,
                     stage,
@@ -71,7 +70,7 @@ pub fn pictures(
                 ("png", film::png::encode(width, height, &rgb, &metadata)?)
             }
             Format::Exr => {
-                let depth = exr_depth(shot.output.depth);
+                let depth = exr_depth(frame.output.depth);
                 saturated += exr::clamped(&developed, depth);
                 let layers = &film.layers;
                 (
@@ -97,13 +96,13 @@ fn cut_light(member: Member<'_>, stage: &Stage, film: &Film) -> Option<String> {
     }
     let enough = enough_bounces(member, stage, [film.width, film.height], &film.left_out);
     let what_would_do = match enough {
-        Ok(Enough::Bounces(bounces)) => {
+        Enough::Bounces(bounces) => {
             let silent = percent(SILENT);
             format!("effects.bounces = {bounces} would leave out less than {silent}")
         }
-        _ => format!(
+        Enough::None => format!(
             "no number of effects.bounces would do, as it is too faint for accuracy.cutoff = {} or goes on for ever",
-            member.shot.accuracy.cutoff
+            member.frame.accuracy.cutoff
         ),
     };
     Some(format!(
@@ -126,13 +125,13 @@ fn exr_depth(depth: Depth) -> exr::Depth {
     }
 }
 
-fn metadata(shot: &Shot, frame: u32, scene: &Scene, taken: Taken<'_>) -> Metadata {
+fn metadata(frame: &Frame<'_>, scene: &Scene, taken: Taken<'_>) -> Metadata {
     let worldline = &scene.worldlines[scene.camera.worldline];
     let camera = worldline.celerity;
     Metadata {
         software: Some(film::SOFTWARE.to_owned()),
-        comments: shot.shot.title.clone(),
-        frames_per_second: Some(shot.shot.fps),
+        comments: frame.title.map(str::to_owned),
+        frames_per_second: Some(frame.fps),
         // Camera space is the same for every projection. What describes a perspective alone is not
         // written: no `worldToNDC`, and the screen window that EXR demands stays at its default,
         // which by the standard is that of pictures without such a description.
@@ -142,12 +141,12 @@ fn metadata(shot: &Shot, frame: u32, scene: &Scene, taken: Taken<'_>) -> Metadat
             .map(|matrix| matrix.to_cols_array()),
         exposure_stops: Some(taken.exposure_stops),
         samples_per_pixel: Some(taken.samples),
-        frame: Some(frame),
+        frame: Some(frame.number),
         beta: Some(camera.beta().to_array()),
         lorentz_factor: Some(camera.lorentz_factor()),
-        time_s: Some(shot.shot.time.at(frame, shot.shot.frames)),
+        time_s: Some(frame.time_s),
         worldlines: scene.worldline_names.clone(),
-        shot: Some(still(shot, frame, taken)),
+        shot: Some(still(frame, taken)),
         fingerprint: taken.fingerprint.map(str::to_owned),
         ..Metadata::default()
     }
@@ -156,8 +155,8 @@ fn metadata(shot: &Shot, frame: u32, scene: &Scene, taken: Taken<'_>) -> Metadat
 /// The shot that this frame alone is rendered again from, beside the original: what moves stands
 /// still, what was metered or asked for is written down. The size is the shot's own, as insets name
 /// its pixels: a picture of another size is rendered by the `--scale` that gives it.
-fn still(shot: &Shot, frame: u32, taken: Taken<'_>) -> String {
-    let mut still = shot.at(frame);
+fn still(frame: &Frame<'_>, taken: Taken<'_>) -> String {
+    let mut still = frame.alone();
     still.sensor.exposure = Exposure::Stops(Track::Constant(taken.exposure_stops));
     still.image.samples = taken.samples;
     still.sequence = Sequence::default();
@@ -165,7 +164,7 @@ fn still(shot: &Shot, frame: u32, taken: Taken<'_>) -> String {
 }
 
 /// The window, where a picture is not what an eye would see.
-fn window_nm(sensor: &Sensor) -> Option<[f64; 2]> {
+fn window_nm(sensor: Sensor) -> Option<[f64; 2]> {
     let eye = Sensor::default();
     ((sensor.color, sensor.window) != (eye.color, eye.window)).then_some(sensor.window)
 }

@@ -1,20 +1,16 @@
 //! The record of a frame that has just been finished.
 
-use super::batch::Task;
-use super::cost::effect_names;
 use super::job::Job;
 use super::machine::{host, now, peak_memory_mib};
 use super::manifest::{Record, Seconds};
 use super::picture::Pictures;
-use crate::frame::{self, ActiveEffects, FrameFingerprint};
-use crate::render::spliced;
-use crate::shot::{Beaming, Shot};
+use crate::frame::{Frame, FrameFingerprint};
+use crate::shot::Shot;
 
 /// Exposure of a frame, stops.
-pub(super) fn stops(job: &Job, frame: u32) -> f64 {
-    let frames = job.reel.shot().shot.frames;
+pub(super) fn stops(job: &Job, frame: &Frame<'_>) -> f64 {
     let exposing = job.exposing.as_ref();
-    exposing.map_or(0.0, |exposing| exposing.stops(frame, frames))
+    exposing.map_or(0.0, |exposing| exposing.stops(frame))
 }
 
 /// What a frame's viewer should know.
@@ -27,19 +23,19 @@ pub(super) fn warnings(made: &Pictures) -> Vec<String> {
 }
 
 /// The record of a frame, but for its files, times and warnings.
-pub(super) fn blank(job: &Job, task: &Task, key: &FrameFingerprint) -> Record {
+pub(super) fn blank(job: &Job, frame: &Frame<'_>, key: &FrameFingerprint) -> Record {
     let options = &job.options;
     Record {
-        frame: task.frame,
+        frame: frame.number,
         fingerprint: key.fingerprint.clone(),
         parts: key.inputs.clone(),
         files: Vec::new(),
         size: [options.width, options.height],
         samples: options.samples,
-        effects: frame_effects(job.reel.shot(), task.frame),
+        effects: frame.active_names(),
         trace: key.trace.clone(),
         shared: 1,
-        exposure: stops(job, task.frame),
+        exposure: stops(job, frame),
         seconds: Seconds::default(),
         warnings: Vec::new(),
         cut: 0.0,
@@ -51,31 +47,7 @@ pub(super) fn blank(job: &Job, task: &Task, key: &FrameFingerprint) -> Record {
     }
 }
 
-/// Names of the effects that are simulated in a frame, in all of it or in a splice.
-pub fn frame_effects(shot: &Shot, frame: u32) -> Vec<String> {
-    let splices = shot
-        .splice
-        .iter()
-        .map(|splice| spliced(&shot.effects, splice));
-    let mut found: Vec<String> = Vec::new();
-    for effects in std::iter::once(shot.effects).chain(splices) {
-        // A frame without a velocity is refused by whoever renders it.
-        let called = frame::active_effects(shot, frame, &effects);
-        found.extend(called.iter().flat_map(effect_names));
-    }
-    let mut named = effect_names(&ALL);
-    named.retain(|name| found.contains(name));
-    named
+/// Names of the effects that are simulated in a frame; none in one that is refused.
+pub(super) fn active_names(shot: &Shot, frame: u32) -> Vec<String> {
+    Frame::new(shot, frame).map_or_else(|_| Vec::new(), |frame| frame.active_names())
 }
-
-/// Every effect, for the order of their names.
-const ALL: ActiveEffects = ActiveEffects {
-    geometry: true,
-    doppler: true,
-    beaming: Beaming::Full,
-    thermal: true,
-    shadows: true,
-    mirror: true,
-    refraction: true,
-    because: Vec::new(),
-};

@@ -263,7 +263,7 @@ impl Reel {
 
     /// Of files that say the right thing, but that no record tells the lengths of.
     fn decoded(&self, files: &[String]) -> Status {
-        let size = self.keys.picture().size;
+        let size = self.keys.resolution().size;
         let broken = |name: &&String| !imprint::is_whole(&self.folder.join(name), size);
         match files.iter().find(broken) {
             None => Status::Fresh,

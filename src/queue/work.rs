@@ -4,6 +4,7 @@ use super::batch::Task;
 use super::claim::Claim;
 use super::deed::Deed;
 use super::job::Job;
+use super::machine::{now, peak_memory_mib};
 use super::manifest::{FileRecord, Record, Seconds};
 use super::memory::{check_memory, most_developed};
 use super::picture::{Pictures, Taken, pictures};
@@ -12,8 +13,8 @@ use super::record::{blank, stops, warnings};
 use super::shots::{Exposing, Prepared, RenderError};
 use super::write::{is_full, twice, write_atomically};
 use crate::film::Film;
-use crate::frame::{self, FrameFingerprint, MotionError};
-use crate::render::{Member, Together, TogetherError, Watch, motion_mistake, render_together};
+use crate::frame::{Frame, FrameFingerprint};
+use crate::render::{Member, Stopped, Together, Watch, render_together};
 use crate::scene::Scene;
 use crate::shot::{Mistakes, Shot};
 use crate::trace::Stage;
@@ -78,16 +79,15 @@ impl Foreman<'_> {
         }
         let first = batch[0].task.job;
         let kept = jobs[first].kept.take();
-        let scenes = scenes(jobs, batch, kept.as_ref().map(|(scene, _)| scene))?;
         let jobs = &*jobs;
+        let frames = frames(jobs, batch)?;
+        let scenes = scenes(jobs, batch, &frames, kept.as_ref().map(|(scene, _)| scene))?;
         let stage = stage(kept, &scenes[0], jobs[first].reel.shot());
         let prepare = begun.elapsed().as_secs_f64();
-        let member = |(ready, scene)| {
-            let Ready { task, .. }: &Ready = ready;
-            let (shot, frame) = (jobs[task.job].reel.shot(), task.frame);
-            Member { shot, frame, scene }
-        };
-        let members: Vec<Member<'_>> = batch.iter().zip(&scenes).map(member).collect();
+        let members = frames.iter().zip(&scenes);
+        let members: Vec<_> = members
+            .map(|(frame, scene)| Member { frame, scene })
+            .collect();
         let options = &jobs[first].options;
         let rays =
             f64::from(options.width) * f64::from(options.height) * f64::from(options.samples);
@@ -98,10 +98,7 @@ impl Foreman<'_> {
             stop: self.stop,
         };
         let rendered = render_together(&members, &stage, options, watch);
-        let mut together = rendered.map_err(|error| match error {
-            TogetherError::Stopped => Undone::Stopped,
-            TogetherError::Motion(error) => astray(&members, &error),
-        })?;
+        let mut together = rendered.map_err(|Stopped| Undone::Stopped)?;
         together.prepare += prepare;
         Ok(Shoot {
             first,
@@ -165,13 +162,7 @@ impl Foreman<'_> {
                 .into_par_iter()
                 .map(|((ready, scene), film)| {
                     let job = &jobs[ready.task.job];
-                    let shot = job.reel.shot();
-                    let taken = Taken {
-                        exposure_stops: stops(job, ready.task.frame),
-                        samples: job.options.samples,
-                        fingerprint: Some(&ready.key.fingerprint),
-                    };
-                    let made = pictures(shot, ready.task.frame, scene, &stage, &film, taken);
+                    let made = encode(job, &ready, scene, &stage, &film);
                     (ready, made)
                 })
                 .collect();
@@ -187,7 +178,14 @@ impl Foreman<'_> {
                 };
                 match made {
                     _ if job.halted.is_some() => self.progress.forgo(ready.task.work),
-                    Ok(made) => self.file(job, &ready, made, (seconds, shared)),
+                    Ok((record, made)) => {
+                        let record = Record {
+                            seconds,
+                            shared: u32::try_from(shared).unwrap_or(u32::MAX),
+                            ..record
+                        };
+                        self.file(job, &ready, made, record);
+                    }
                     Err(error) => self.failed(job, &ready.task, &error.to_string()),
                 }
                 // Only now may another process look at the frame.
@@ -200,17 +198,14 @@ impl Foreman<'_> {
     }
 
     /// The files of a frame to the disk, then its record.
-    fn file(
-        self,
-        job: &mut Job,
-        ready: &Ready,
-        made: Pictures,
-        (mut seconds, shared): (Seconds, usize),
-    ) {
+    fn file(self, job: &mut Job, ready: &Ready, made: Pictures, record: Record) {
         let task = &ready.task;
         let begun = Instant::now();
         let written = self.write(job, task, &made);
-        seconds.write = begun.elapsed().as_secs_f64();
+        let seconds = Seconds {
+            write: begun.elapsed().as_secs_f64(),
+            ..record.seconds
+        };
         let (Ok(files), Some(ledger)) = (&written, &job.ledger) else {
             return self.unwritten(job, task, written.err());
         };
@@ -219,8 +214,9 @@ impl Foreman<'_> {
             warnings: warnings(&made),
             cut: made.cut,
             seconds,
-            shared: u32::try_from(shared).unwrap_or(u32::MAX),
-            ..blank(job, task, &ready.key)
+            memory_mib: peak_memory_mib(),
+            finished: now(),
+            ..record
         };
         if let Err(error) = twice(|| ledger.append(&record)) {
             return self.unwritten(job, task, Some(error));
@@ -313,9 +309,43 @@ struct Shoot {
     together: Together,
 }
 
+/// The frames of a batch.
+fn frames<'a>(jobs: &'a [Job], batch: &[Ready]) -> Result<Vec<Frame<'a>>, Undone> {
+    let frame = |(index, ready): (usize, &Ready)| {
+        let task = &ready.task;
+        let frame = Frame::new(jobs[task.job].reel.shot(), task.frame);
+        frame.map_err(|m| mistaken(index, m))
+    };
+    batch.iter().enumerate().map(frame).collect()
+}
+
+/// The files of a frame, and its record but for its files, times and warnings.
+fn encode(
+    job: &Job,
+    ready: &Ready,
+    scene: &Scene,
+    stage: &Stage,
+    film: &Film,
+) -> Result<(Record, Pictures), RenderError> {
+    let frame = Frame::new(job.reel.shot(), ready.task.frame)
+        .map_err(|mistakes| RenderError::Mistakes(Box::new(mistakes)))?;
+    let taken = Taken {
+        exposure_stops: stops(job, &frame),
+        samples: job.options.samples,
+        fingerprint: Some(&ready.key.fingerprint),
+    };
+    let made = pictures(&frame, scene, stage, film, taken)?;
+    Ok((blank(job, &frame, &ready.key), made))
+}
+
 /// The scenes of a batch; bodies are taken over from the last one of the same shot, first from
 /// `kept`, which is of the first frame's.
-fn scenes(jobs: &[Job], batch: &[Ready], kept: Option<&Scene>) -> Result<Vec<Scene>, Undone> {
+fn scenes(
+    jobs: &[Job],
+    batch: &[Ready],
+    frames: &[Frame<'_>],
+    kept: Option<&Scene>,
+) -> Result<Vec<Scene>, Undone> {
     let mut scenes: Vec<Scene> = Vec::with_capacity(batch.len());
     for (index, ready) in batch.iter().enumerate() {
         let number = ready.task.job;
@@ -323,7 +353,7 @@ fn scenes(jobs: &[Job], batch: &[Ready], kept: Option<&Scene>) -> Result<Vec<Sce
         let last = (0..index).rev().find(|&i| batch[i].task.job == number);
         let kept = kept.filter(|_| number == batch[0].task.job);
         let earlier = last.map(|last| &scenes[last]).or(kept);
-        let scene = Scene::resolve(&prepared.shot, &prepared.library, ready.task.frame, earlier);
+        let scene = Scene::resolve(&frames[index], &prepared.library, earlier);
         scenes.push(scene.map_err(|m| mistaken(index, m))?);
     }
     Ok(scenes)
@@ -339,14 +369,6 @@ fn stage(kept: Option<(Scene, Stage)>, scene: &Scene, shot: &Shot) -> Stage {
             shot.accuracy.tracing,
         ),
     }
-}
-
-/// The member that a worldline without velocity is of: others may have one of its name.
-fn astray(members: &[Member<'_>], error: &MotionError) -> Undone {
-    let fails =
-        |member: &Member<'_>| frame::celerity(member.shot, &error.worldline, member.frame).is_err();
-    let index = members.iter().position(fails).unwrap_or(0);
-    mistaken(index, motion_mistake(members[index].shot, error))
 }
 
 fn mistaken(index: usize, mistakes: Mistakes) -> Undone {

@@ -3,7 +3,6 @@
 use super::view::{RelativeMotions, Views};
 use super::{Member, View, channels};
 use crate::film::{Channels, LeftOut, SILENT};
-use crate::frame::MotionError;
 use crate::shade::ShadeScratch;
 use crate::shot::MOST_BOUNCES;
 use crate::trace::{Root, Scratch, ShadeTrees, Stage, Tracer};
@@ -27,31 +26,28 @@ pub enum Enough {
 
 /// The least bounces with which an image of `size` pixels would leave out no more than [`SILENT`],
 /// being one of which `left_out` was left out. Found by a sample of its rays, followed deeper.
-///
-/// # Errors
-/// Where a worldline has no velocity in this frame.
 pub fn enough_bounces(
     member: Member<'_>,
     stage: &Stage,
     size: [u32; 2],
     left_out: &LeftOut,
-) -> Result<Enough, MotionError> {
-    let views = Views::new(member, stage, size[1], &RelativeMotions::default())?;
-    let own = member.shot.effects.bounces;
+) -> Enough {
+    let views = Views::new(member, stage, size[1], &RelativeMotions::default());
+    let own = member.frame.effects.bounces;
     for side in SIDES {
         let sample = Sample {
             views: &views,
-            channels: channels(member.shot),
+            channels: channels(member.frame.sensor.color),
             size,
             side,
         };
         let here = sample.share(own);
         if here > 0.0 {
             let most = here * (SILENT * MARGIN / left_out.share()).min(1.0);
-            return Ok(least(own, |bounces| sample.share(bounces) <= most));
+            return least(own, |bounces| sample.share(bounces) <= most);
         }
     }
-    Ok(Enough::None)
+    Enough::None
 }
 
 /// The least number above `own` that will do; more do where fewer do.

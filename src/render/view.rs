@@ -1,10 +1,10 @@
 //! One image under one set of effects: everything a ray needs.
 
-use super::{Member, rows, spliced};
-use crate::frame::{self, ActiveEffects, MotionError};
+use super::Member;
+use crate::frame::{ActiveEffects, Frame, Sensor};
 use crate::scene::Scene;
 use crate::shade::{Settings, Shader};
-use crate::shot::{Accuracy, Effects, Sensor, SensorColor, Shot, Spectra, Switch};
+use crate::shot::{Accuracy, Effects, SensorColor, Spectra, Switch};
 use crate::trace::{Spacetime, Stage, Tracer};
 use std::ops::Range;
 use std::sync::{Arc, OnceLock};
@@ -14,7 +14,7 @@ pub struct View<'a> {
     scene: &'a Scene,
     stage: &'a Stage,
     /// What is simulated.
-    pub called: ActiveEffects,
+    pub effects: ActiveEffects,
     motion: Arc<RelativeMotion>,
     shader: Shader,
     bounces: u32,
@@ -24,41 +24,25 @@ pub struct View<'a> {
 }
 
 impl<'a> View<'a> {
-    /// Prepares the image `frame` of a shot under the author's `switches`.
-    ///
-    /// # Errors
-    /// Where a worldline has no velocity in this frame.
-    pub fn new(
-        shot: &Shot,
-        frame: u32,
-        switches: &Effects,
-        scene: &'a Scene,
-        stage: &'a Stage,
-    ) -> Result<Self, MotionError> {
-        Self::sharing(
-            &RelativeMotions::default(),
-            shot,
-            frame,
-            switches,
-            scene,
-            stage,
-        )
+    /// Prepares a frame's image under the author's `switches`: the frame's own effects, or those of a
+    /// splice.
+    pub fn new(frame: &Frame<'_>, switches: &Effects, scene: &'a Scene, stage: &'a Stage) -> Self {
+        Self::sharing(&RelativeMotions::default(), frame, switches, scene, stage)
     }
 
     /// [`View::new`] among images in which worldlines stand to each other as `motions` has it.
     fn sharing(
         motions: &RelativeMotions,
-        shot: &Shot,
-        frame: u32,
+        frame: &Frame<'_>,
         switches: &Effects,
         scene: &'a Scene,
         stage: &'a Stage,
-    ) -> Result<Self, MotionError> {
-        let called = frame::active_effects(shot, frame, switches)?;
+    ) -> Self {
+        let effects = frame.active_effects(switches);
         // Where nothing moves the links are translations, which cost nothing; light still takes
         // its time to the camera.
         let motion = motions.under(switches.geometry, scene, stage);
-        let bounces = if called.mirror || called.refraction {
+        let bounces = if effects.mirror || effects.refraction {
             switches.bounces
         } else {
             0
@@ -66,24 +50,24 @@ impl<'a> View<'a> {
         // Between two bodies D is at most the square of what it is between either and the camera.
         let hops = 1.0 + 2.0 * f64::from(bounces);
         let settings = Settings {
-            called: &called,
-            accuracy: &shot.accuracy,
-            sensor: &shot.sensor,
+            called: &effects,
+            accuracy: &frame.accuracy,
+            sensor: &frame.sensor,
             reach: hops * motion.to_camera,
             lamp_reach: motion.to_lamps,
         };
         let shader = Shader::new(scene, &settings);
         let reaches = [settings.reach, settings.lamp_reach];
-        Ok(Self {
+        Self {
             reaches,
             scene,
             stage,
-            called,
+            effects,
             motion,
             shader,
             bounces,
-            cutoff: shot.accuracy.cutoff,
-        })
+            cutoff: frame.accuracy.cutoff,
+        }
     }
 
     /// The scene.
@@ -96,16 +80,16 @@ impl<'a> View<'a> {
         &self.shader
     }
 
-    /// The shader of this image as the CIE's observer sees it, whatever the shot's sensor makes of
+    /// The shader of this image as the CIE's observer sees it, whatever the frame's sensor makes of
     /// its window.
-    pub fn eye(&self, shot: &Shot) -> Shader {
+    pub fn eye(&self, frame: &Frame<'_>) -> Shader {
         let [reach, lamp_reach] = self.reaches;
         let settings = Settings {
-            called: &self.called,
-            accuracy: &shot.accuracy,
+            called: &self.effects,
+            accuracy: &frame.accuracy,
             sensor: &Sensor {
                 color: SensorColor::Cie1931,
-                ..shot.sensor.clone()
+                ..frame.sensor
             },
             reach,
             lamp_reach,
@@ -117,7 +101,7 @@ impl<'a> View<'a> {
     /// read as their author wrote them, so that no baking shows at any wavelength or shift.
     pub fn shader_over(&self, window_nm: [f64; 2], wavelengths: u32) -> Shader {
         let settings = Settings {
-            called: &self.called,
+            called: &self.effects,
             accuracy: &Accuracy {
                 spectra: Spectra::Exact,
                 wavelengths,
@@ -150,7 +134,7 @@ impl<'a> View<'a> {
             scene: self.scene,
             stage: self.stage,
             spacetime: self.spacetime(),
-            shadows: self.called.shadows,
+            shadows: self.effects.shadows,
             bounces: self.bounces,
             cutoff: self.cutoff,
             clock: None,
@@ -172,7 +156,7 @@ impl<'a> View<'a> {
         };
         let passing = surfaces(self).iter().any(|(_, passes_on)| *passes_on);
         let branches = |view: &Self| passing.then_some((view.bounces, view.cutoff));
-        let shadows = |view: &Self| !view.scene.lights.is_empty() && view.called.shadows;
+        let shadows = |view: &Self| !view.scene.lights.is_empty() && view.effects.shadows;
         of_scene(self) == of_scene(other)
             && surfaces(self) == surfaces(other)
             && self.scene.worldlines == other.scene.worldlines
@@ -249,17 +233,16 @@ impl<'a> Views<'a> {
         stage: &'a Stage,
         height: u32,
         motions: &RelativeMotions,
-    ) -> Result<Self, MotionError> {
-        let Member { shot, frame, scene } = member;
-        let view = |switches: &Effects| View::sharing(motions, shot, frame, switches, scene, stage);
-        Ok(Self {
-            whole: view(&shot.effects)?,
-            splices: shot
-                .splice
-                .iter()
-                .map(|splice| Ok((rows(splice, height), view(&spliced(&shot.effects, splice))?)))
-                .collect::<Result<_, _>>()?,
-        })
+    ) -> Self {
+        let Member { frame, scene } = member;
+        let view = |switches: &Effects| View::sharing(motions, frame, switches, scene, stage);
+        let splices = frame.splices.iter();
+        Self {
+            whole: view(&frame.effects),
+            splices: splices
+                .map(|splice| (splice.rows_of(height), view(&splice.effects)))
+                .collect(),
+        }
     }
 
     /// The view of a row.

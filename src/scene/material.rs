@@ -2,7 +2,8 @@
 
 use super::model::ModelMaterial;
 use super::spectra::Spectra;
-use crate::shot;
+use crate::frame;
+use crate::shot::ThermalCurve;
 use crate::spectrum::{Spectrum, SpectrumError};
 use std::sync::Arc;
 
@@ -152,63 +153,42 @@ impl Material {
     /// The shot's material laid over this one: keys that it gives replace, the rest stays.
     pub(super) fn overlaid(
         mut self,
-        shot: &shot::Material,
+        over: &frame::Material<'_>,
         spectra: &Spectra<'_>,
     ) -> Result<Self, MaterialError> {
-        if let Some(term) = &shot.diffuse {
-            let over = Over {
-                term: "diffuse",
-                weight: &term.weight,
-                spectrum: &term.spectrum,
-            };
-            self.diffuse = Some(over.reflectance(self.diffuse, spectra)?);
+        let reflectance = |name, term: frame::Term<'_>, below| {
+            let made = laid(name, term, below, spectra)?;
+            within_one(name, made.weight, &made.spectrum)?;
+            Ok::<_, MaterialError>(made)
+        };
+        if let Some(term) = over.diffuse {
+            self.diffuse = Some(reflectance("diffuse", term, self.diffuse)?);
         }
-        if let Some(term) = &shot.emission {
-            let over = Over {
-                term: "emission",
-                weight: &term.scale,
-                spectrum: &term.spectrum,
-            };
-            self.emission = Some(over.lay(self.emission, spectra)?);
+        if let Some(term) = over.emission {
+            self.emission = Some(laid("emission", term, self.emission, spectra)?);
         }
-        if let Some(term) = &shot.highlight {
-            let exponent = term.exponent.as_ref().map(|e| spectra.at(e));
+        if let Some(frame::Highlight { term, exponent }) = over.highlight {
             let below = self.highlight.take();
             let kept = below.as_ref().map_or(EXPONENT, |h| h.exponent);
-            let over = Over {
-                term: "highlight",
-                weight: &term.weight,
-                spectrum: &term.spectrum,
-            };
-            let reflectance = over.reflectance(below.map(|h| h.reflectance), spectra)?;
+            let below = below.map(|h| h.reflectance);
             self.highlight = Some(Highlight {
-                reflectance,
+                reflectance: reflectance("highlight", term, below)?,
                 exponent: exponent.unwrap_or(kept),
             });
         }
-        if let Some(term) = &shot.mirror {
-            let over = Over {
-                term: "mirror",
-                weight: &term.weight,
-                spectrum: &term.spectrum,
-            };
-            self.mirror = Some(over.reflectance(self.mirror, spectra)?);
+        if let Some(term) = over.mirror {
+            self.mirror = Some(reflectance("mirror", term, self.mirror)?);
         }
-        if let Some(term) = &shot.refraction {
-            let ior = term.ior.as_ref().map(|ior| spectra.at(ior));
+        if let Some(frame::Refraction { term, ior }) = over.refraction {
             let below = self.refraction.take();
             let kept = below.as_ref().map_or(IOR, |r| r.ior);
-            let over = Over {
-                term: "refraction",
-                weight: &term.weight,
-                spectrum: &term.spectrum,
-            };
+            let below = below.map(|r| r.transmittance);
             self.refraction = Some(Refraction {
-                transmittance: over.reflectance(below.map(|r| r.transmittance), spectra)?,
+                transmittance: reflectance("refraction", term, below)?,
                 ior: ior.unwrap_or(kept),
             });
         }
-        if let Some(term) = &shot.thermal {
+        if let Some(term) = &over.thermal {
             self.thermal = thermal(term, spectra)?;
         }
         Ok(self)
@@ -239,39 +219,22 @@ impl Material {
     }
 }
 
-/// Keys of a term that are laid over what stands there already.
-struct Over<'a> {
-    term: &'static str,
-    weight: &'a Option<shot::Track<f64>>,
-    spectrum: &'a Option<shot::SpectrumValue>,
-}
-
-impl Over<'_> {
-    fn lay(
-        &self,
-        below: Option<Reflectance>,
-        spectra: &Spectra<'_>,
-    ) -> Result<Reflectance, MaterialError> {
-        let (kept, curve) = below.map_or((1.0, None), |b| (b.weight, Some(b.spectrum)));
-        let weight = self.weight.as_ref().map_or(kept, |w| spectra.at(w));
-        let spectrum = match (self.spectrum, curve) {
-            (Some(value), _) => spectra.curve(value)?,
-            (None, Some(curve)) => curve,
-            (None, None) if weight == 0.0 => Arc::new(Spectrum::Constant(0.0)),
-            (None, None) => return Err(MaterialError::Unbacked(self.term)),
-        };
-        Ok(Reflectance { weight, spectrum })
-    }
-
-    fn reflectance(
-        &self,
-        below: Option<Reflectance>,
-        spectra: &Spectra<'_>,
-    ) -> Result<Reflectance, MaterialError> {
-        let made = self.lay(below, spectra)?;
-        within_one(self.term, made.weight, &made.spectrum)?;
-        Ok(made)
-    }
+/// A term of the shot laid over what stands there already.
+fn laid(
+    name: &'static str,
+    over: frame::Term<'_>,
+    below: Option<Reflectance>,
+    spectra: &Spectra<'_>,
+) -> Result<Reflectance, MaterialError> {
+    let (kept, curve) = below.map_or((1.0, None), |b| (b.weight, Some(b.spectrum)));
+    let weight = over.weight.unwrap_or(kept);
+    let spectrum = match (over.spectrum, curve) {
+        (Some(value), _) => spectra.curve(value)?,
+        (None, Some(curve)) => curve,
+        (None, None) if weight == 0.0 => Arc::new(Spectrum::Constant(0.0)),
+        (None, None) => return Err(MaterialError::Unbacked(name)),
+    };
+    Ok(Reflectance { weight, spectrum })
 }
 
 /// Rounding that a product of authored numbers may carry above 1.
@@ -289,19 +252,17 @@ fn within_one(term: &'static str, weight: f64, spectrum: &Spectrum) -> Result<()
 }
 
 /// A thermal term, or None at 0 K.
-fn thermal(term: &shot::Thermal, spectra: &Spectra<'_>) -> Result<Option<Thermal>, MaterialError> {
-    let temperature_k = term.temperature.as_ref().map_or(0.0, |t| spectra.at(t));
-    let emissivity = match &term.emissivity {
-        Some(value) => spectra.curve(value)?,
-        None => Arc::new(Spectrum::Constant(1.0)),
-    };
+fn thermal(
+    term: &frame::Thermal<'_>,
+    spectra: &Spectra<'_>,
+) -> Result<Option<Thermal>, MaterialError> {
+    let emissivity = spectra.curve(term.emissivity)?;
     within_one("thermal.emissivity", 1.0, &emissivity)?;
     let curve = match term.curve {
-        Some(shot::ThermalCurve::Peak) => {
-            Curve::Peak(term.strength.as_ref().map_or(1.0, |s| spectra.at(s)))
-        }
-        Some(shot::ThermalCurve::Absolute) | None => Curve::Absolute,
+        ThermalCurve::Peak => Curve::Peak(term.strength),
+        ThermalCurve::Absolute => Curve::Absolute,
     };
+    let temperature_k = term.temperature_k;
     Ok((temperature_k > 0.0).then_some(Thermal {
         temperature_k,
         emissivity,

@@ -2,7 +2,8 @@
 //! path, option, default or name is left to look up. Positions are those of each thing's own
 //! rest frame, in metres; angles are in radians.
 //!
-//! In: a [`Shot`](crate::shot::Shot) and a frame number. Out: a [`Scene`].
+//! In: a [`Frame`](crate::frame::Frame), and the [`Library`] of the files that its shot names. Out: a
+//! [`Scene`].
 
 pub mod model;
 pub mod sky;

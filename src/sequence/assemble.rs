@@ -144,7 +144,7 @@ fn make(
     }
     let making = Making {
         reel,
-        parts: Parts::new(reel.shot(), reel.keys.picture().size),
+        parts: Parts::new(reel.shot(), reel.keys.resolution().size),
         notes,
         stop,
     };

@@ -3,7 +3,7 @@
 
 use super::output::Output;
 use crate::film::decode::open;
-use crate::frame::facts;
+use crate::frame::Caption;
 use crate::queue::{Reel, open_plain};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
@@ -37,7 +37,7 @@ fn key(reel: &Reel, output: Output) -> String {
     let told: Vec<String> = match output {
         Output::Sheet => frames
             .clone()
-            .map(|frame| facts(shot, frame).map_or_else(|e| e.to_string(), |f| f.caption()))
+            .map(|number| Caption::text_of(shot, number))
             .collect(),
         _ => Vec::new(),
     };

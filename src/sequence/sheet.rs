@@ -11,7 +11,7 @@ use super::still::Still;
 use super::target::Target;
 use crate::film::plot::escaped;
 use crate::film::raster;
-use crate::frame::facts;
+use crate::frame::Caption;
 use crate::queue::Reel;
 use crate::shot::{LARGEST_SIDE, MOST_COLUMNS, Shot};
 use std::io::{self, Write};
@@ -146,7 +146,7 @@ impl Sheet {
             ));
         }
         let captions = (1..=frames).map(|frame| {
-            let told = facts(shot, frame).map_or_else(|e| e.to_string(), |f| f.caption());
+            let told = Caption::text_of(shot, frame);
             let step = layout.picture[0] / parts.iter().count().max(1) as u32;
             let labels = parts
                 .iter()

@@ -37,7 +37,7 @@ pub struct StillError {
 pub fn read(reel: &Reel, frame: u32) -> Result<Still, StillError> {
     let extension = shown_extension(reel.shot());
     let file = reel.folder.join(reel.names.frame(frame, extension));
-    let size = reel.keys.picture().size;
+    let size = reel.keys.resolution().size;
     let decoded = decode::read_bytes(&file, size)
         .and_then(|bytes| decode_as(reel.shot(), extension, &bytes, size));
     match decoded {
@@ -72,7 +72,7 @@ pub(super) fn decode_as(
 ) -> Result<Decoded, Fault> {
     match extension {
         // An EXR holds exposed light: of the development the transfer is left to do.
-        "exr" => decode::exr(bytes, size, development(shot, 0.0).encode),
+        "exr" => decode::exr(bytes, size, development(shot.sensor.color, 0.0).encode),
         _ => decode::png(bytes, size),
     }
 }

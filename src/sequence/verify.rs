@@ -142,7 +142,7 @@ fn inspect(
     file: &str,
     extension: &str,
 ) -> Result<Inspected, Fault> {
-    let size = reel.keys.picture().size;
+    let size = reel.keys.resolution().size;
     let bytes = read_bytes(&reel.folder.join(file), size)?;
     let decoded = decode_as(reel.shot(), extension, &bytes, size)?;
     let mut wrong = Vec::new();

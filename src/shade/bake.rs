@@ -5,9 +5,9 @@ use super::narrow::Narrow;
 use super::received::{Received, finite};
 use super::table::XyzTable;
 use super::thermal::Glow;
-use crate::frame::ActiveEffects;
+use crate::frame::{self, ActiveEffects};
 use crate::scene::{Material, Reflectance, Scene, Thermal};
-use crate::shot::{self, Accuracy, Spectra};
+use crate::shot::{Accuracy, Spectra};
 use crate::spectrum::quadrature::cuts_nm;
 use crate::spectrum::{Fine, FineSensor, Quadrature, Sensor, Spectrum, planck};
 use crate::trace::Term;
@@ -121,7 +121,7 @@ pub struct Settings<'a> {
     /// How spectra are held.
     pub accuracy: &'a Accuracy,
     /// The band that is seen, and how.
-    pub sensor: &'a shot::Sensor,
+    pub sensor: &'a frame::Sensor,
     /// Largest |ln D| between a surface and the camera.
     pub reach: f64,
     /// Largest |ln D| between a lamp and a surface.

@@ -8,8 +8,9 @@ use super::passage::Passages;
 use super::radiance::Radiance;
 use super::received::finite;
 use super::rgb::RgbShader;
+use crate::frame;
 use crate::scene::Scene;
-use crate::shot::{self, SensorColor, Spectra};
+use crate::shot::{SensorColor, Spectra};
 use crate::spectrum::{Lines, LogAxis, Quadrature, Sensor};
 use crate::trace::{Root, ShadeTrees};
 
@@ -117,7 +118,7 @@ impl Shader {
 }
 
 /// A shot's sensor over an axis.
-pub(super) fn sensor(sensor: &shot::Sensor, axis: LogAxis) -> Sensor {
+pub(super) fn sensor(sensor: &frame::Sensor, axis: LogAxis) -> Sensor {
     match sensor.color {
         SensorColor::Cie1931 => Sensor::cie1931(axis),
         SensorColor::Bands => Sensor::bands(axis),
@@ -125,7 +126,7 @@ pub(super) fn sensor(sensor: &shot::Sensor, axis: LogAxis) -> Sensor {
 }
 
 /// The integrals that a sensor's channels stand for.
-pub(super) fn quadrature(sensor: &shot::Sensor) -> Quadrature {
+pub(super) fn quadrature(sensor: &frame::Sensor) -> Quadrature {
     match sensor.color {
         SensorColor::Cie1931 => Quadrature::cie1931(sensor.window),
         SensorColor::Bands => Quadrature::bands(sensor.window),

@@ -4,7 +4,7 @@ use super::findings::EffectCost;
 use super::rounds::{median, most_rounds as pairs, timing};
 use super::subject::{Bodies, Subject, Variant};
 use super::{Start, StudyError};
-use crate::frame::ActiveEffects;
+use crate::frame::{ActiveEffects, Frame, Splice};
 use crate::scene::{Library, Scene};
 use crate::shot::{Beaming, Effects, Shot, Switch};
 use crate::trace::Stage;
@@ -69,7 +69,7 @@ pub(super) fn costs(
             "mirror" if !called.mirror && called.refraction => "refraction",
             name => name,
         };
-        let why = called.because.iter().find(|reason| reason.effect == named);
+        let why = called.reasons.iter().find(|reason| reason.effect == named);
         let why = why.map_or_else(String::new, |reason| reason.why.clone());
         costs.push(EffectCost {
             effect: effect.name,
@@ -87,7 +87,7 @@ pub(super) fn costs(
 fn without(shot: &Shot, off: fn(&mut Effects)) -> Shot {
     let mut shot = shot.clone();
     for splice in &mut shot.splice {
-        let mut effects = crate::render::spliced(&shot.effects, splice);
+        let mut effects = Splice::new(splice, &shot.effects).effects;
         off(&mut effects);
         let over = &mut splice.effects;
         over.geometry = Some(effects.geometry);
@@ -120,7 +120,7 @@ fn second_worldline(
     let on = start.as_it_is();
     let called = others > 0;
     let off = if called {
-        let scene = Scene::resolve(&shot, library, start.frame, None)?;
+        let scene = Scene::resolve(&Frame::new(&shot, start.frame)?, library, None)?;
         let stage = Stage::with_precision(&scene.geometry, None, shot.accuracy.tracing);
         Variant {
             shot,

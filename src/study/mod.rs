@@ -24,9 +24,9 @@ pub use findings::Study;
 
 use crate::film::EncodeError;
 use crate::film::compare::CompareError;
-use crate::frame::{self, ActiveEffects};
+use crate::frame::{ActiveEffects, Frame};
 use crate::queue::{Names, Prepared};
-use crate::render::{Options, motion_mistake};
+use crate::render::Options;
 use crate::scene::Scene;
 use crate::shot::{Accuracy, Mistakes, Shot, Spectra};
 use crate::trace::Stage;
@@ -114,16 +114,15 @@ pub fn study(
     news: &dyn Fn(&str),
 ) -> Result<Study, StudyError> {
     let shot = &prepared.shot;
-    let frame = request.frame;
-    let called = frame::active_effects(shot, frame, &shot.effects)
-        .map_err(|error| motion_mistake(shot, &error))?;
+    let frame = Frame::new(shot, request.frame)?;
+    let called = frame.active_effects(&frame.effects);
     let (exposing, _) = prepared.exposure()?;
-    let subject = Subject::new(shot, frame, &exposing, request.scratch.clone());
-    let scene = Scene::resolve(shot, &prepared.library, frame, None)?;
+    let subject = Subject::new(&frame, &exposing, request.scratch.clone());
+    let scene = Scene::resolve(&frame, &prepared.library, None)?;
     let stage = Stage::with_precision(&scene.geometry, None, shot.accuracy.tracing);
     let start = Start {
         shot,
-        frame,
+        frame: frame.number,
         options: request.options.clone(),
         bodies: Arc::new(Bodies { scene, stage }),
     };
@@ -171,7 +170,7 @@ pub fn study(
         schema_version: 1,
         shot: Names::new(&prepared.shot).stem,
         title: shot.shot.title.clone(),
-        frame,
+        frame: frame.number,
         size: [request.options.width, request.options.height],
         samples: request.options.samples,
         machine: Machine {

@@ -3,8 +3,9 @@
 use super::StudyError;
 use super::memory::{forget_peak, peak_mib};
 use crate::film::{Film, develop};
+use crate::frame::Frame;
 use crate::queue::{Exposing, Pictures, Taken, pictures, write_atomically};
-use crate::render::{Options, Profile, View, development, motion_mistake, render_profiled};
+use crate::render::{Options, Profile, View, development, render_profiled};
 use crate::scene::Scene;
 use crate::shot::Shot;
 use crate::trace::Stage;
@@ -30,10 +31,10 @@ pub(super) struct Subject {
 
 impl Subject {
     /// The subject of a shot.
-    pub(super) fn new(shot: &Shot, frame: u32, exposing: &Exposing, scratch: PathBuf) -> Self {
+    pub(super) fn new(frame: &Frame<'_>, exposing: &Exposing, scratch: PathBuf) -> Self {
         Self {
-            frame,
-            stops: exposing.stops(frame, shot.shot.frames),
+            frame: frame.number,
+            stops: exposing.stops(frame),
             scratch,
         }
     }
@@ -99,8 +100,8 @@ impl Variant {
     /// The image, ready for rays.
     pub(super) fn view(&self, subject: &Subject) -> Result<View<'_>, StudyError> {
         let (scene, stage) = (&self.bodies.scene, &self.bodies.stage);
-        let view = View::new(&self.shot, subject.frame, &self.shot.effects, scene, stage);
-        Ok(view.map_err(|error| motion_mistake(&self.shot, &error))?)
+        let frame = Frame::new(&self.shot, subject.frame)?;
+        Ok(View::new(&frame, &frame.effects, scene, stage))
     }
 
     /// Renders it once.
@@ -109,20 +110,11 @@ impl Variant {
         let profile = Profile::default();
         let (scene, stage) = (&self.bodies.scene, &self.bodies.stage);
         let begun = Instant::now();
-        let film = render_profiled(
-            &self.shot,
-            subject.frame,
-            scene,
-            stage,
-            &self.options,
-            &|_| (),
-            Some(&profile),
-        )
-        .map_err(|error| motion_mistake(&self.shot, &error))?;
+        let frame = Frame::new(&self.shot, subject.frame)?;
+        let film = render_profiled(&frame, scene, stage, &self.options, &|_| (), Some(&profile));
         let rendered = Instant::now();
         let Pictures { files, .. } = pictures(
-            &self.shot,
-            subject.frame,
+            &frame,
             scene,
             stage,
             &film,
@@ -142,7 +134,7 @@ impl Variant {
         let threads = rayon::current_num_threads() as f64;
         // Once more, for its time alone: it is part of making the files.
         let again = Instant::now();
-        let developed = develop(&film, &development(&self.shot, subject.stops));
+        let developed = develop(&film, &development(frame.sensor.color, subject.stops));
         let developing = again.elapsed().as_secs_f64();
         drop(developed);
         let writing = (ended - rendered).as_secs_f64() - developing;

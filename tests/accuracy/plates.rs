@@ -1,6 +1,7 @@
 //! The plates, small: the same rays shaded exactly and as they are.
 
 use restframe::film::compare::{Comparison, delta_e_2000, lab_from_xyz};
+use restframe::frame::Frame;
 use restframe::queue::Prepared;
 use restframe::render::{Options, render};
 use restframe::scene::Scene;
@@ -17,12 +18,9 @@ const SIZE: [u32; 2] = [128, 72];
 fn differences(number: u32) -> Comparison {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("shots/plate-{number:02}.toml"));
     let mut prepared = Prepared::read(&path).unwrap();
-    let stops = prepared
-        .exposure()
-        .unwrap()
-        .0
-        .stops(1, prepared.shot.shot.frames);
-    let scene = Scene::resolve(&prepared.shot, &prepared.library, 1, None).unwrap();
+    let frame = Frame::new(&prepared.shot, 1).unwrap();
+    let stops = prepared.exposure().unwrap().0.stops(&frame);
+    let scene = Scene::resolve(&frame, &prepared.library, None).unwrap();
     let stage = Stage::build(&scene.geometry, None);
     let options = Options {
         width: SIZE[0],
@@ -32,7 +30,8 @@ fn differences(number: u32) -> Comparison {
     };
     let mut film = |spectra| {
         prepared.shot.accuracy.spectra = spectra;
-        render(&prepared.shot, 1, &scene, &stage, &options, &|_| ()).unwrap()
+        let frame = Frame::new(&prepared.shot, 1).unwrap();
+        render(&frame, &scene, &stage, &options, &|_| ())
     };
     let [exact, grid] = [Spectra::Exact, Spectra::Grid].map(&mut film);
     assert!(

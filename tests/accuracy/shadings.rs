@@ -6,7 +6,7 @@
 use super::random::Random;
 use rayon::prelude::*;
 use restframe::film::compare::{Comparison, delta_e_2000, lab_from_xyz};
-use restframe::frame;
+use restframe::frame::{Frame, Sensor};
 use restframe::scene::{Curve, Library, Material, Reflectance, Scene, Thermal};
 use restframe::shade::{Settings, ShadeScratch, Shader};
 use restframe::shot::{self, Accuracy, Preset, Shot, Spectra};
@@ -178,18 +178,20 @@ impl Wall {
         std::fs::write(folder.join("quad.obj"), quad).unwrap();
         let shot = shot::parse(SHOT, &folder.join("shadings.toml")).unwrap();
         let library = Library::load(&shot).unwrap();
-        let scene = Scene::resolve(&shot, &library, 1, None).unwrap();
+        let scene = Scene::resolve(&Frame::new(&shot, 1).unwrap(), &library, None).unwrap();
         Self { shot, scene }
     }
 
     fn shader(&mut self, shading: &Shading, material: Material, accuracy: Accuracy) -> Shader {
         self.scene.materials[0] = material;
         self.scene.lights[0].spectrum = Arc::clone(&shading.lamp);
-        let called = frame::active_effects(&self.shot, 1, &self.shot.effects).unwrap();
+        let called = Frame::new(&self.shot, 1)
+            .unwrap()
+            .active_effects(&self.shot.effects);
         let settings = Settings {
             called: &called,
             accuracy: &accuracy,
-            sensor: &self.shot.sensor,
+            sensor: &Sensor::new(&self.shot.sensor),
             reach: shading.doppler.ln().abs() + 1e-9,
             lamp_reach: shading.lamp_doppler.ln().abs() + 1e-9,
         };

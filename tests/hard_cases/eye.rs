@@ -3,6 +3,7 @@
 
 use crate::scene::Set;
 use glam::DVec3;
+use restframe::frame::Frame;
 use restframe::probe::{Probe, probe};
 use restframe::render::View;
 use restframe::scene::{Mesh, Scene};
@@ -33,7 +34,12 @@ impl<'a> Eye<'a> {
     /// Another frame than the first.
     pub(crate) fn in_frame(set: &'a Set, frame: u32) -> Self {
         let prepared = &set.prepared;
-        let scene = Scene::resolve(&prepared.shot, &prepared.library, frame, None).unwrap();
+        let scene = Scene::resolve(
+            &Frame::new(&prepared.shot, frame).unwrap(),
+            &prepared.library,
+            None,
+        )
+        .unwrap();
         Self::of(set, frame, scene)
     }
 
@@ -50,7 +56,12 @@ impl<'a> Eye<'a> {
 
     pub(crate) fn view(&self) -> View<'_> {
         let shot = &self.set.prepared.shot;
-        View::new(shot, self.frame, &shot.effects, &self.scene, &self.stage).unwrap()
+        View::new(
+            &Frame::new(shot, self.frame).unwrap(),
+            &shot.effects,
+            &self.scene,
+            &self.stage,
+        )
     }
 
     /// What the centres of all pixels see, row by row, at exposure 0.
@@ -61,7 +72,13 @@ impl<'a> Eye<'a> {
         (0..width * height)
             .map(|i| {
                 let pixel = [i % width, i / width];
-                probe(shot, self.frame, pixel, &view, &self.scene, 0.0)
+                probe(
+                    &Frame::new(shot, self.frame).unwrap(),
+                    pixel,
+                    &view,
+                    &self.scene,
+                    0.0,
+                )
             })
             .collect()
     }

@@ -7,6 +7,7 @@ use crate::swept::{GLARE, INSIDE, SCENES};
 use rayon::ThreadPoolBuilder;
 use rayon::prelude::*;
 use restframe::film::Film;
+use restframe::frame::Frame;
 use restframe::render::View;
 use restframe::shade::ShadeScratch;
 use restframe::spectrum::{Spectrum, cie, planck};
@@ -196,7 +197,7 @@ fn backwards(set: &Set) -> Vec<[f32; 3]> {
     let shot = &set.prepared.shot;
     let scene = set.scene();
     let stage = Stage::build(&scene.geometry, None);
-    let view = View::new(shot, 1, &shot.effects, &scene, &stage).unwrap();
+    let view = View::new(&Frame::new(shot, 1).unwrap(), &shot.effects, &scene, &stage);
     let [width, height] = shot.image.size;
     let samples = Samples::new(shot.image.samples, shot.image.filter);
     let (mut scratch, mut shading) = (Scratch::default(), ShadeScratch::default());

@@ -5,7 +5,7 @@
 
 use super::desk::Desk;
 use restframe::film::{develop, png::to_rgb8};
-use restframe::frame::EPOCH;
+use restframe::frame::{EPOCH, Frame};
 use restframe::render::{Options, development, render};
 use restframe::scene::{Library, Scene};
 use restframe::trace::Stage;
@@ -88,7 +88,8 @@ const PIXELS: [&str; 4] = [
 fn pixels(desk: &Desk, subject: &str) -> Vec<u8> {
     let shot = desk.shot(&format!("{COMMON}{subject}"));
     let library = Library::load(&shot).unwrap();
-    let scene = Scene::resolve(&shot, &library, 1, None).unwrap();
+    let frame = Frame::new(&shot, 1).unwrap();
+    let scene = Scene::resolve(&frame, &library, None).unwrap();
     let stage = Stage::with_precision(&scene.geometry, None, shot.accuracy.tracing);
     let options = Options {
         width: shot.image.size[0],
@@ -96,8 +97,8 @@ fn pixels(desk: &Desk, subject: &str) -> Vec<u8> {
         samples: shot.image.samples,
         layers: Vec::new(),
     };
-    let film = render(&shot, 1, &scene, &stage, &options, &|_| ()).unwrap();
-    let development = development(&shot, 0.0);
+    let film = render(&frame, &scene, &stage, &options, &|_| ());
+    let development = development(shot.sensor.color, 0.0);
     to_rgb8(&develop(&film, &development), development.encode)
 }
 

@@ -3,7 +3,7 @@
 
 use super::desk::Desk;
 use assert_cmd::Command;
-use restframe::frame;
+use restframe::frame::Frame;
 use restframe::shot::{Places, Sequence, Shot, parse, schema};
 use serde_json::Value;
 use std::collections::BTreeSet;
@@ -316,8 +316,12 @@ fn what_a_frame_calls_for_is_what_the_shot_of_that_frame_alone_does() {
         };
         for frame in 1..=shot.shot.frames {
             let still = shot.at(frame);
-            let alone = frame::active_effects(&still, 1, &still.effects);
-            let called = frame::active_effects(&shot, frame, &shot.effects);
+            let alone = Frame::new(&still, 1)
+                .unwrap()
+                .active_effects(&still.effects);
+            let called = Frame::new(&shot, frame)
+                .unwrap()
+                .active_effects(&shot.effects);
             assert_eq!(called, alone, "{}: {frame}", path.display());
         }
     }

@@ -1,9 +1,10 @@
 //! A plate small: its pixels as displayed, and what their centres see.
 
 use restframe::film::{Development, Film, develop, png};
+use restframe::frame::Frame;
 use restframe::probe::{Probe, probe};
 use restframe::queue::Prepared;
-use restframe::render::{Options, View, render, rows, spliced};
+use restframe::render::{Options, View, render};
 use restframe::scene::Scene;
 use restframe::spectrum::color_space::{RGB_FROM_XYZ, encode};
 use restframe::trace::Stage;
@@ -59,7 +60,8 @@ pub(crate) fn prepared(stem: &str) -> Prepared {
 
 /// The film of one frame.
 pub(crate) fn film(prepared: &Prepared, frame: u32) -> Film {
-    let scene = Scene::resolve(&prepared.shot, &prepared.library, frame, None).unwrap();
+    let values = Frame::new(&prepared.shot, frame).unwrap();
+    let scene = Scene::resolve(&values, &prepared.library, None).unwrap();
     let stage = Stage::build(&scene.geometry, None);
     let options = Options {
         width: WIDTH,
@@ -67,7 +69,7 @@ pub(crate) fn film(prepared: &Prepared, frame: u32) -> Film {
         samples: SAMPLES,
         layers: Vec::new(),
     };
-    render(&prepared.shot, frame, &scene, &stage, &options, &|_| ()).unwrap()
+    render(&values, &scene, &stage, &options, &|_| ())
 }
 
 impl Thumbnail {
@@ -76,30 +78,22 @@ impl Thumbnail {
         let prepared = prepared(stem);
         let shot = &prepared.shot;
         let film = film(&prepared, frame);
-        let exposure = prepared
-            .exposure()
-            .unwrap()
-            .0
-            .stops(frame, shot.shot.frames);
+        let values = Frame::new(shot, frame).unwrap();
+        let exposure = prepared.exposure().unwrap().0.stops(&values);
         let development = Development {
             rgb_from_xyz: RGB_FROM_XYZ,
             exposure_stops: exposure,
             encode,
         };
         let rgb8 = png::to_rgb8(&develop(&film, &development), encode);
-        let scene = Scene::resolve(shot, &prepared.library, frame, None).unwrap();
+        let scene = Scene::resolve(&values, &prepared.library, None).unwrap();
         let stage = Stage::build(&scene.geometry, None);
         let (mut probes, mut directions) = (Vec::new(), Vec::new());
         for y in 0..HEIGHT {
-            let splice = shot
-                .splice
-                .iter()
-                .rev()
-                .find(|s| rows(s, HEIGHT).contains(&y));
-            let effects = splice.map_or(shot.effects, |splice| spliced(&shot.effects, splice));
-            let view = View::new(shot, frame, &effects, &scene, &stage).unwrap();
+            let effects = Frame::new(shot, frame).unwrap().effects_at(y);
+            let view = View::new(&values, &effects, &scene, &stage);
             for x in 0..WIDTH {
-                probes.push(probe(shot, frame, [x, y], &view, &scene, exposure));
+                probes.push(probe(&values, [x, y], &view, &scene, exposure));
                 let point = [
                     (f64::from(x) + 0.5) / f64::from(WIDTH),
                     (f64::from(y) + 0.5) / f64::from(HEIGHT),

@@ -10,12 +10,11 @@ mod words;
 use super::answer::{Answer, Reader};
 use super::render::check_scale;
 use super::{Failed, PlanArguments, failed, mistaken, misused, print};
-use crate::frame::{self, ActiveEffects, Reason, TraceKey};
+use crate::frame::{ActiveEffects, Frames, Reason, TraceKey, refuse_shifted_rgb};
 use crate::queue::{
-    Costs, Estimate, Reel, ReelError, Request, Status, effect_names, frame_bytes, frame_effects,
-    memory_bytes, most_together, options, refuse_shifted_numbers,
+    Costs, Estimate, Reel, ReelError, Request, Status, frame_bytes, memory_bytes, most_together,
+    options,
 };
-use crate::render::motion_mistake;
 use crate::shot::{self, Beaming, Shot};
 use indexmap::IndexSet;
 use rayon::prelude::*;
@@ -78,7 +77,7 @@ struct Totals {
 /// Runs the command.
 pub(super) fn run(arguments: &PlanArguments) -> Result<(), Failed> {
     let shot = shot::load(&arguments.shot).map_err(|m| mistaken(&m))?;
-    refuse_shifted_numbers(&shot).map_err(|m| mistaken(&m))?;
+    refuse_shifted_rgb(&shot).map_err(|m| mistaken(&m))?;
     let request = arguments.pictures.request(arguments.frames.as_ref());
     let chosen = chosen(&shot, &request)?;
     let reel = Reel::open(&shot, &request).map_err(|error| match error {
@@ -96,11 +95,12 @@ pub(super) fn run(arguments: &PlanArguments) -> Result<(), Failed> {
 
 /// Refuses velocities that are none between two keys, before anything is told.
 fn check_motion(shot: &Shot, frames: &[u32]) -> Result<(), Failed> {
-    let wrong = frames.par_iter().find_map_first(|frame| {
-        let mut names = shot.worldline.keys();
-        names.find_map(|name| frame::celerity(shot, name, *frame).err())
-    });
-    wrong.map_or(Ok(()), |error| Err(mistaken(&motion_mistake(shot, &error))))
+    let wrong = frames.par_iter().map_init(
+        || Frames::new(shot),
+        |frames, number| frames.at(*number).err(),
+    );
+    let wrong = wrong.find_map_first(|mistakes| mistakes);
+    wrong.map_or(Ok(()), |mistakes| Err(mistaken(&mistakes)))
 }
 
 /// The frames that are asked for.
@@ -128,7 +128,7 @@ impl<'a> Plan<'a> {
         let mut numbers: HashMap<TraceKey, u32> = HashMap::new();
         let mut sharing: Vec<[u32; 2]> = Vec::new();
         let mut traces = Vec::with_capacity(frames.len());
-        for (frame, trace) in frames.iter().zip(reel.keys.traces_of(&frames)) {
+        for (frame, trace) in frames.iter().zip(reel.keys.trace_keys_of(&frames)) {
             let number = *numbers.entry(trace).or_insert(sharing.len() as u32);
             if number as usize == sharing.len() {
                 sharing.push([0; 2]);
@@ -149,16 +149,15 @@ impl<'a> Plan<'a> {
     }
 
     /// Plans the frame at a place of the list.
-    fn frame(&self, place: usize) -> Result<Planned, Failed> {
-        let (reel, shot, frame) = (self.reel, self.reel.shot(), self.frames[place]);
-        let called = frame::active_effects(shot, frame, &shot.effects)
-            .map_err(|error| mistaken(&motion_mistake(shot, &error)))?;
-        let effects = if shot.splice.is_empty() {
-            effect_names(&called)
-        } else {
-            frame_effects(shot, frame)
+    fn frame(&self, frames: &mut Frames<'_>, place: usize) -> Result<Planned, Failed> {
+        let (reel, frame) = (self.reel, self.frames[place]);
+        let values = frames.at(frame).map_err(|m| mistaken(&m))?;
+        let called = values.active_effects(&values.effects);
+        let effects = match values.splices.is_empty() {
+            true => called.names(),
+            false => values.active_names(),
         };
-        let estimate = self.costs.estimate(&effects, reel.keys.picture());
+        let estimate = self.costs.estimate(&effects, reel.keys.resolution());
         let status = self.there.get(&frame).unwrap_or(&Status::Missing).clone();
         let trace = self.traces[place];
         let [_, left] = self.sharing[trace as usize];
@@ -186,11 +185,14 @@ impl<'a> Plan<'a> {
         let mut sums = Sums::default();
         let places: Vec<usize> = (0..self.frames.len()).collect();
         for some in places.chunks(AT_ONCE) {
-            let planned = some.par_iter().map(|place| {
-                let planned = self.frame(*place)?;
-                let made = made(&planned);
-                Ok((planned, made))
-            });
+            let planned = some.par_iter().map_init(
+                || Frames::new(self.reel.shot()),
+                |frames, place| {
+                    let planned = self.frame(frames, *place)?;
+                    let made = made(&planned);
+                    Ok((planned, made))
+                },
+            );
             for planned in planned.collect::<Vec<Result<_, Failed>>>() {
                 let (planned, made) = planned?;
                 sums.add(&planned);
@@ -322,7 +324,7 @@ impl Run {
             0 => step <= 1,
             _ => step == u32::from(trace != first.trace),
         };
-        let effects = effect_names(&first.called) == effect_names(&next.called);
+        let effects = first.called.names() == next.called.names();
         next.frame == frame + 1 && same_step && first.status == next.status && effects
     }
 }
@@ -367,7 +369,7 @@ impl<'a> Frame<'a> {
                 mirror: called.mirror,
                 refraction: called.refraction,
             },
-            because: &called.because,
+            because: &called.reasons,
             trace: planned.trace,
             status: word(&planned.status),
             seconds: planned.seconds,

@@ -1,7 +1,7 @@
 //! A plan in words.
 
 use super::{Planned, Run, Totals};
-use crate::queue::{Reel, Status, effect_names};
+use crate::queue::{Reel, Status};
 use indexmap::IndexMap;
 
 pub(super) fn word(status: &Status) -> &'static str {
@@ -14,7 +14,7 @@ pub(super) fn word(status: &Status) -> &'static str {
 
 /// What there is to do, in a few lines.
 pub(super) fn head(reel: &Reel, totals: &Totals) -> String {
-    let picture = reel.keys.picture();
+    let picture = reel.keys.resolution();
     let [width, height] = picture.size;
     let left = totals.frames - totals.fresh;
     let basis = match (left, totals.measured) {
@@ -39,7 +39,7 @@ pub(super) fn head(reel: &Reel, totals: &Totals) -> String {
 
 pub(super) fn line(run: &Run) -> String {
     let (first, [last_frame, last_trace]) = (&run.first, run.last);
-    let effects = effect_names(&first.called);
+    let effects = first.called.names();
     let effects = match effects.as_slice() {
         [] => "no effects".to_owned(),
         names => names.join(", "),
@@ -55,9 +55,9 @@ pub(super) fn line(run: &Run) -> String {
 
 /// Why effects are called for, those of one reason together.
 pub(super) fn sentences(planned: &Planned) -> Vec<String> {
-    let names = effect_names(&planned.called);
+    let names = planned.called.names();
     let mut effects: IndexMap<&str, Vec<&str>> = IndexMap::new();
-    for reason in &planned.called.because {
+    for reason in &planned.called.reasons {
         if names.iter().any(|name| name == reason.effect) {
             effects.entry(&reason.why).or_default().push(reason.effect);
         }

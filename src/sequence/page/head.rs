@@ -115,7 +115,7 @@ fn counts(contents: &Contents<'_>) -> String {
 }
 
 fn shot_file(reel: &Reel) -> String {
-    let picture = reel.keys.picture();
+    let picture = reel.keys.resolution();
     let [width, height] = picture.size;
     let fps = reel.shot().shot.fps;
     let plural = if picture.samples == 1 { "" } else { "s" };

@@ -3,7 +3,7 @@
 use super::super::output::OUTPUTS;
 use super::run::{Outcome, RunFacts};
 use super::view::{Found, fitting};
-use crate::frame::facts;
+use crate::frame::Caption;
 use crate::queue::{Reel, Status};
 use serde_json::{Value, json};
 use std::fs;
@@ -27,15 +27,8 @@ pub(super) fn key(reel: &Reel, run: &RunFacts, found: &Found) -> String {
         };
         let fingerprint = reel.keys.frame(frame).fingerprint;
         let record = fitting(reel, frame);
-        let facts = facts(shot, frame).ok();
-        // `Debug` tells numbers to their last digit.
-        json!([
-            fingerprint,
-            state(status),
-            failed,
-            record,
-            format!("{facts:?}")
-        ])
+        let facts = Caption::text_of(shot, frame);
+        json!([fingerprint, state(status), failed, record, facts])
     });
     let parts = json!([
         EPOCH,
@@ -44,8 +37,8 @@ pub(super) fn key(reel: &Reel, run: &RunFacts, found: &Found) -> String {
         shot.shot.title,
         shot.shot.fps,
         reel.files(1),
-        reel.keys.picture().size,
-        reel.keys.picture().samples,
+        reel.keys.resolution().size,
+        reel.keys.resolution().samples,
         assembled.collect::<Vec<_>>(),
         frames.collect::<Vec<_>>(),
         [json!(shot.shot.frames), json!(found.gaps)],

@@ -6,7 +6,7 @@ use maud::{Markup, PreEscaped, html};
 
 /// The section, hidden until the script shows it.
 pub(super) fn section(reel: &Reel, contents: &Contents<'_>) -> Markup {
-    let [width, height] = reel.keys.picture().size;
+    let [width, height] = reel.keys.resolution().size;
     html! {
         section #player hidden data-fps=(reel.shot().shot.fps) data-frames=(contents.frames) aria-label="Player" {
             div.stage style={ "aspect-ratio:" (width) "/" (height) } {

@@ -3,7 +3,7 @@
 use super::chart::PHASES;
 use super::view::{Contents, Entry, View, beside, span};
 use crate::film::plot::quantity::{NOTHING, bytes, number, time};
-use crate::frame::Facts;
+use crate::frame::Caption;
 use crate::queue::Record;
 use crate::relativity::Celerity;
 use maud::{Markup, html};
@@ -78,7 +78,7 @@ const COLUMNS: [Column; 17] = [
     }),
 ];
 
-fn fact(view: &View<'_>, part: impl Fn(&Facts) -> Option<String>) -> Option<String> {
+fn fact(view: &View<'_>, part: impl Fn(&Caption) -> Option<String>) -> Option<String> {
     part(view.facts.as_ref()?)
 }
 

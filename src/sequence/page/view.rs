@@ -2,7 +2,7 @@
 
 use super::run::{Outcome, RunFacts};
 use super::thumbnail::{Thumbnail, small};
-use crate::frame::{Facts, facts};
+use crate::frame::{Caption, Frame};
 use crate::queue::{Record, Reel, Status, Stop};
 use crate::sequence::gaps::{Run, SINGLY, count, gaps};
 use crate::sequence::read;
@@ -65,7 +65,7 @@ pub(super) struct View<'a> {
     /// URL of its full picture beside the page.
     pub(super) full: Option<String>,
     pub(super) record: Option<&'a Record>,
-    pub(super) facts: Option<Facts>,
+    pub(super) facts: Option<Caption>,
 }
 
 /// What a page tells of: frames that are there or that a run was to make, and where there are more,
@@ -154,7 +154,9 @@ impl<'a> View<'a> {
             full: (picture.is_some() && browsers_show_it).then(|| beside(&name)),
             picture,
             record: fitting(reel, frame),
-            facts: facts(shot, frame).ok(),
+            facts: Frame::new(shot, frame)
+                .ok()
+                .map(|frame| Caption::new(&frame)),
         }
     }
 }

@@ -1,8 +1,7 @@
 //! How spectra are held, and how finely.
 
 use super::Knob;
-use crate::frame::{self, ActiveEffects};
-use crate::render::spliced;
+use crate::frame::{ActiveEffects, Frame};
 use crate::shot::{Accuracy, Shot, Spectra, Switch};
 use crate::spectrum::LineAxis;
 use crate::study::Start;
@@ -107,8 +106,8 @@ pub(in crate::study) fn lines_seen(shot: &Shot, spacing_nm: f64) -> bool {
 }
 
 fn splices_shift(start: &Start<'_>) -> bool {
-    start.shot.splice.iter().any(|splice| {
-        let effects = spliced(&start.shot.effects, splice);
-        frame::active_effects(start.shot, start.frame, &effects).is_ok_and(|called| called.doppler)
+    Frame::new(start.shot, start.frame).is_ok_and(|frame| {
+        let mut splices = frame.splices.iter();
+        splices.any(|splice| frame.active_effects(&splice.effects).doppler)
     })
 }
