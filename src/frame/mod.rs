@@ -20,6 +20,7 @@ mod settings;
 mod shifted_rgb;
 mod spectrum;
 mod trace_key;
+mod trace_sections;
 mod values;
 mod worldline;
 

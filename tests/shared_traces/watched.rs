@@ -2,7 +2,6 @@
 
 use super::{Changes, member, options, prepared, scene, together};
 use restframe::frame::Frame;
-use restframe::queue::Prepared;
 use restframe::render::{Member, Options, Stopped, Watch, render_together};
 use restframe::shot::{Track, Velocity};
 use restframe::trace::Stage;
