@@ -7,9 +7,10 @@ mod read;
 
 use divan::{Bencher, black_box, counter::ItemsCount};
 use read::read;
-use restframe::film::exr::{self, Depth};
-use restframe::film::{Development, Film, Metadata, develop, png};
+use restframe::film::{Development, Film, develop};
 use restframe::frame::Frame;
+use restframe::image::exr::{self, Depth};
+use restframe::image::{Metadata, png};
 use restframe::queue::Prepared;
 use restframe::render::{Options, development, render};
 use restframe::scene::Scene;
@@ -211,7 +212,7 @@ fn film_is_written_as_png(bencher: Bencher<'_, '_>) {
     let (film, development) = film();
     let developed = develop(&film, &development);
     bencher.bench_local(|| {
-        let rgb8 = png::to_rgb8(black_box(&developed), development.encode);
+        let rgb8 = restframe::film::to_rgb8(black_box(&developed), development.encode);
         png::encode(film.width, film.height, &rgb8, &Metadata::default())
     });
 }

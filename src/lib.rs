@@ -58,9 +58,12 @@
 //! ([`relativity::Transform`]). docs/hard-cases.md is the measured card of all this.
 
 pub mod cli;
+pub mod color;
 pub mod film;
 pub mod frame;
-
+pub mod image;
+pub mod model;
+pub mod plot;
 pub mod probe;
 pub mod queue;
 pub mod relativity;

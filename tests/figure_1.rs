@@ -13,8 +13,8 @@
     reason = "what cannot be read or resolved fails the test"
 )]
 
-use restframe::film::plot::{Axis, Color, Page, Panel, Plot, Scale, Series, Stroke, lay_out, svg};
 use restframe::frame::Frame;
+use restframe::plot::{Axis, Color, Page, Panel, Plot, Scale, Series, Stroke, lay_out, svg};
 use restframe::probe::{Probe, probe};
 use restframe::queue::Prepared;
 use restframe::render::View;

@@ -1,10 +1,9 @@
 //! Picture files read back by generic readers, and their bytes written twice.
 
 use exr::prelude::{AttributeValue, FlatSamples, ReadChannels, ReadLayers, Text, Vec2};
-use restframe::film::exr::{self as exr_file, Depth};
-use restframe::film::{
-    Channels, Developed, EncodeError, Layers, Metadata, SOFTWARE, png as png_file,
-};
+use restframe::film::{Channels, Developed, Layers};
+use restframe::image::exr::{self as exr_file, Depth};
+use restframe::image::{EncodeError, Metadata, SOFTWARE, png as png_file};
 use std::io::Cursor;
 
 const WIDTH: u32 = 37;

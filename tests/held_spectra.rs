@@ -6,14 +6,15 @@
 )]
 
 use glam::DVec3;
+use restframe::color::cie;
 use restframe::frame::{Frame, Sensor};
 use restframe::queue::Prepared;
 use restframe::scene::sky::{SkyImage, Star, Stars};
 use restframe::scene::{Library, Scene};
 use restframe::shade::{Settings, ShadeScratch, Shader};
 use restframe::shot::{self, Beaming, SensorColor, Shot, Spectra, Switch};
+use restframe::spectrum::planck;
 use restframe::spectrum::uplift::HUE_ERROR;
-use restframe::spectrum::{cie, planck};
 use restframe::trace::{BodyHit, Branch, Lit, Node, Root, Seen, ShadeTrees, Surface, Term};
 use std::path::Path;
 use std::sync::Arc;

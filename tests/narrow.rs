@@ -6,11 +6,11 @@
     reason = "a test's helpers fail by panicking"
 )]
 
+use restframe::color::cie::{EFFICACY, xyz_bar};
 use restframe::frame::{Frame, Sensor};
 use restframe::scene::{Curve, Library, Material, Reflectance, Scene, Thermal};
 use restframe::shade::{Settings, ShadeScratch, Shader};
 use restframe::shot::{self, Accuracy, Shot, Spectra};
-use restframe::spectrum::cie::{EFFICACY, xyz_bar};
 use restframe::spectrum::{Beyond, Cardinal, Sampled, Spectrum, illuminant};
 use restframe::trace::{BodyHit, Branch, Lit, Node, Root, Seen, ShadeTrees, Surface, Term};
 use std::f64::consts::TAU;
@@ -538,7 +538,7 @@ fn the_stated_bound_covers_lines() {
                     "emissivity" => glow,
                     _ => lamp,
                 };
-                let white = restframe::spectrum::cie::xyz_of(|_| peak * doppler.powi(5));
+                let white = restframe::color::cie::xyz_of(|_| peak * doppler.powi(5));
                 for c in 0..3 {
                     let error = (found[c] - exact[c]).abs() / white[c];
                     assert!(

@@ -6,7 +6,7 @@
 )]
 
 use indexmap::IndexMap;
-use restframe::film::{self, Metadata};
+use restframe::image::Metadata;
 use restframe::queue::{FileRecord, FrameList, Record, Reel, Request, Seconds, Stop};
 use restframe::sequence::page::{Outcome, RunFacts, write};
 use restframe::shot::parse;
@@ -74,7 +74,7 @@ fn png(reel: &Reel, frame: u32) -> Vec<u8> {
         fingerprint: Some(reel.keys.frame(frame).fingerprint),
         ..Metadata::default()
     };
-    film::png::encode(160, 90, image.as_raw(), &metadata).unwrap()
+    restframe::image::png::encode(160, 90, image.as_raw(), &metadata).unwrap()
 }
 
 /// The record of a finished frame.

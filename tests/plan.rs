@@ -6,8 +6,9 @@
 )]
 
 use assert_cmd::Command;
-use restframe::film::{self, Metadata};
 use restframe::frame::FrameFingerprint;
+use restframe::image;
+use restframe::image::Metadata;
 use restframe::queue::{Costs, FrameList, Names, Reel, Request};
 use restframe::shot;
 use serde_json::{Value, json};
@@ -114,7 +115,7 @@ fn picture(key: &FrameFingerprint) -> Vec<u8> {
         comments,
         ..Metadata::default()
     };
-    let bytes = |comments| film::png::encode(1, 1, &[0; 3], &metadata(comments)).unwrap();
+    let bytes = |comments| image::png::encode(1, 1, &[0; 3], &metadata(comments)).unwrap();
     let filled = BYTES - bytes(Some(String::new())).len();
     bytes(Some(" ".repeat(filled)))
 }

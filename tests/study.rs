@@ -2,8 +2,8 @@
 #![expect(clippy::panic, reason = "helpers of tests fail the test")]
 
 use assert_cmd::Command;
-use restframe::film::compare::relative_rmse;
 use restframe::frame::Frame;
+use restframe::image::compare::relative_rmse;
 use restframe::queue::Prepared;
 use restframe::render::{Options, render};
 use restframe::scene::Scene;

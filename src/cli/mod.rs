@@ -1,8 +1,8 @@
 //! The command line: arguments in, messages and an exit code out.
 //!
-//! Results go to standard output, progress and diagnostics to standard error. Exit status: 0
-//! done, 1 something failed while rendering, 2 a mistake in the shot or the call, 130 interrupted,
-//! 143 terminated.
+//! Results go to standard output, progress and diagnostics to standard error. Exit status: 0 if
+//! everything was done, 1 if something failed while rendering, 2 for a mistake in the shot or in the
+//! arguments, 130 if interrupted (Ctrl-C), 143 if terminated.
 
 mod answer;
 mod assemble;
@@ -21,7 +21,7 @@ use std::io::{self, IsTerminal, Write};
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-/// Renders scenes in which things move at nearly the speed of light
+/// Render scenes in which things move at nearly the speed of light
 #[derive(Debug, Parser)]
 #[command(version, about, propagate_version = true, max_term_width = 100)]
 struct Arguments {
@@ -31,55 +31,57 @@ struct Arguments {
 
 #[derive(Debug, Subcommand)]
 enum Command {
-    /// Renders shots to images, DIR/STEM/STEM.0001.png and so on
+    /// Render the frames that are missing or out of date, then assemble sheets, animations and videos
     Render(RenderArguments),
-    /// Reads shots and everything they name, and renders nothing
+    /// Find all mistakes in shots and in the files that they name, without rendering
     Check {
         /// Shot files
         #[arg(required = true, value_name = "SHOT")]
         shots: Vec<PathBuf>,
-        /// Report as JSON on standard output
+        /// Print the result as JSON
         #[arg(long)]
         json: bool,
     },
-    /// Tells what each frame calls for and why, which frames share a trace, and what they will take
+    /// List the effects of each frame, what is out of date and why, and the time it will take
     Plan(PlanArguments),
-    /// Tells which frames are missing, stale, broken or suspicious
+    /// Check finished frames: report missing, stale, broken and suspicious ones
     Verify(FinishedArguments),
-    /// Makes sheets, animations, videos and the page of finished frames
+    /// Make the contact sheet, animations, video and HTML page of finished frames
     Assemble(FinishedArguments),
-    /// Tells what the centre of one pixel sees: event, Doppler factor, spectrum, colour
+    /// Report what the center of one pixel sees: event, Doppler factor, spectrum, color
     Probe(ProbeArguments),
-    /// Measures what accuracy costs in time: a report of one image at many settings of every knob
+    /// Measure what accuracy costs: render one image at many settings, report time and error of each
     Study(StudyArguments),
-    /// Prints the JSON schema of the shot format, for editors
+    /// Print the JSON schema of the shot format, for editors
     Schema,
 }
 
 #[derive(Debug, Args)]
 struct RenderArguments {
-    /// Shot files, rendered one after the other
+    /// Shot files, rendered one after the other; images go to DIR/STEM/STEM.0001.png and so on
     #[arg(required = true, value_name = "SHOT")]
     shots: Vec<PathBuf>,
     #[command(flatten)]
     pictures: PictureArguments,
-    /// Frames, such as 1-10,20 or 1-100:5 (":" steps, "100-" goes to the end); default all
+    /// Frames to render, such as 1-10,20 or 1-100:5 (every fifth) or 100- (to the last) [default:
+    /// all]
     #[arg(long, value_name = "LIST", allow_hyphen_values = true)]
     frames: Option<FrameList>,
-    /// Threads; 0 takes every processor. The images are the same for any number
+    /// Number of threads, 0 for one per processor; images do not depend on it
     #[arg(long, value_name = "N", default_value = "0", value_parser = clap::value_parser!(u16).range(0..=1024), allow_negative_numbers = true)]
     threads: u16,
-    /// The K-th of N parts of the frames chosen, the same parts on every machine
+    /// Render only part K of N of the chosen frames, for several machines that share the folder
     #[arg(long, value_name = "K/N", allow_hyphen_values = true)]
     shard: Option<Shard>,
-    /// Render finished frames too, whose inputs have not changed
+    /// Render all chosen frames, also those that are up to date
     #[arg(long)]
     force: bool,
-    /// How progress is shown on standard error: auto is a bar on a terminal and lines elsewhere,
-    /// json one object a line; openjd tells Open Job Description on standard output
+    /// How progress is shown on standard error: "auto" is a bar on a terminal and one line per frame
+    /// elsewhere, "json" one JSON object per line; "openjd" writes Open Job Description messages to
+    /// standard output
     #[arg(long, value_name = "MODE", value_enum, default_value = "auto")]
     progress: ProgressMode,
-    /// Tell what happens on standard output, one JSON object a line
+    /// Print events to standard output, one JSON object per line
     #[arg(long)]
     json: bool,
 }
@@ -114,15 +116,15 @@ struct PlanArguments {
     shot: PathBuf,
     #[command(flatten)]
     pictures: PictureArguments,
-    /// Frames, such as 1-10,20; default all
+    /// Frames to list, such as 1-10,20 [default: all]
     #[arg(long, value_name = "LIST", allow_hyphen_values = true)]
     frames: Option<FrameList>,
-    /// Answer as JSON
+    /// Print the result as JSON
     #[arg(long)]
     json: bool,
 }
 
-/// What to do with finished frames.
+/// Arguments of the commands that work on finished frames.
 #[derive(Debug, Args)]
 struct FinishedArguments {
     /// Shot files
@@ -130,27 +132,27 @@ struct FinishedArguments {
     shots: Vec<PathBuf>,
     #[command(flatten)]
     pictures: PictureArguments,
-    /// Answer as JSON
+    /// Print the result as JSON
     #[arg(long)]
     json: bool,
 }
 
-/// Which pictures of a shot, and where they are.
+/// Folder, size and samples of a shot's images.
 #[derive(Debug, Args)]
 struct PictureArguments {
-    /// Folder that has a folder of images for each shot
+    /// Folder in which each shot has a folder of images
     #[arg(long, value_name = "DIR", default_value = "renders")]
     out: PathBuf,
-    /// Factor on the size of the images
+    /// Factor on the image size, such as 0.5
     #[arg(long, value_name = "FACTOR", default_value = "1", value_parser = scale, allow_negative_numbers = true)]
     scale: f64,
-    /// Samples a pixel, in place of the shot's
+    /// Samples per pixel, in place of those of the shot
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=65536), allow_negative_numbers = true)]
     samples: Option<u32>,
 }
 
 impl PictureArguments {
-    /// The same for the frames of a list, or for all.
+    /// The request for these images of the listed frames, or of all.
     fn request(&self, frames: Option<&FrameList>) -> Request {
         Request {
             out: self.out.clone(),
@@ -165,16 +167,16 @@ impl PictureArguments {
 struct ProbeArguments {
     /// Shot file
     shot: PathBuf,
-    /// Number of the frame
+    /// Frame number
     #[arg(long, value_name = "N", default_value = "1")]
     frame: u32,
-    /// The pixel; 0 0 is the upper left one
+    /// Column and row of the pixel; 0 0 is the upper left
     #[arg(long, num_args = 2, value_names = ["X", "Y"], required = true)]
     pixel: Vec<u32>,
-    /// SVG file that gets a plot of the pixel's curves
+    /// Also write a plot of the pixel's curves to this SVG file
     #[arg(long, value_name = "FILE")]
     plot: Option<PathBuf>,
-    /// Answer as JSON
+    /// Print the result as JSON
     #[arg(long)]
     json: bool,
 }
@@ -183,30 +185,30 @@ struct ProbeArguments {
 struct StudyArguments {
     /// Shot file
     shot: PathBuf,
-    /// Folder that gets a folder with study.html, study.csv and study.json
+    /// Folder for the report: DIR/STEM/study.html, study.csv and study.json
     #[arg(long, value_name = "DIR", default_value = "renders")]
     out: PathBuf,
-    /// Number of the frame; default the last of those that call for most effects
+    /// Frame number [default: the last of those with the most effects]
     #[arg(long, value_name = "N")]
     frame: Option<u32>,
-    /// Factor on the size of the image; default such that it has at most 640 x 360 pixels
+    /// Factor on the image size [default: such that it has at most 640 x 360 pixels]
     #[arg(long, value_name = "FACTOR", value_parser = scale, allow_negative_numbers = true)]
     scale: Option<f64>,
-    /// Samples a pixel where they are not what is swept; default the shot's, at most 4
+    /// Samples per pixel, except where samples are what is varied [default: the shot's, at most 4]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=65536), allow_negative_numbers = true)]
     samples: Option<u32>,
-    /// How often every setting is rendered
+    /// How many times each setting is rendered
     #[arg(long, value_name = "N", default_value = "5", value_parser = clap::value_parser!(u32).range(1..=1000), allow_negative_numbers = true)]
     repeats: u32,
-    /// Threads; 0 takes every processor
+    /// Number of threads, 0 for one per processor
     #[arg(long, value_name = "N", default_value = "0", value_parser = clap::value_parser!(u16).range(0..=1024), allow_negative_numbers = true)]
     threads: u16,
-    /// Print the study as JSON on standard output too
+    /// Also print the results as JSON
     #[arg(long)]
     json: bool,
 }
 
-/// A factor on the size: above 0, finite.
+/// Parses a factor on the image size: finite and above 0.
 fn scale(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
         Ok(factor) if factor > 0.0 && factor.is_finite() => Ok(factor),
@@ -214,9 +216,9 @@ fn scale(text: &str) -> Result<f64, String> {
     }
 }
 
-/// Exit status of a mistake in the shot or the call.
+/// Exit status for a mistake in the shot or in the arguments.
 const MISTAKE: u8 = 2;
-/// Exit status of something that failed while rendering.
+/// Exit status if something failed while rendering.
 const FAILURE: u8 = 1;
 
 /// Runs the command line of this process.
@@ -237,7 +239,7 @@ pub fn run() -> ExitCode {
     }
 }
 
-/// The exit status of a command that has already said what is wrong.
+/// Exit status of a command that failed. The message has been printed already.
 struct Failed(u8);
 
 fn schema() -> Result<(), Failed> {
@@ -249,7 +251,7 @@ fn print_json(value: &impl serde::Serialize) -> Result<(), Failed> {
     print(&text)
 }
 
-/// Prints a line on standard output. A reader who has gone away is no failure.
+/// Prints a line to standard output. A closed pipe, as by `| head`, is not a failure.
 fn print(text: &str) -> Result<(), Failed> {
     match writeln!(io::stdout().lock(), "{text}") {
         Err(error) if error.kind() != io::ErrorKind::BrokenPipe => {
@@ -259,25 +261,25 @@ fn print(text: &str) -> Result<(), Failed> {
     }
 }
 
-/// Says what failed while rendering.
+/// Prints an error that occurred while rendering.
 fn failed(message: &str) -> Failed {
     say(&format!("error: {message}"));
     Failed(FAILURE)
 }
 
-/// Says what is wrong with the call.
+/// Prints an error in the arguments.
 fn misused(message: &str) -> Failed {
     say(&format!("error: {message}"));
     Failed(MISTAKE)
 }
 
-/// Shows mistakes of a shot.
+/// Prints the mistakes of a shot, each with its place in the file.
 fn mistaken(mistakes: &Mistakes) -> Failed {
     say(mistakes.report(color_on_stderr()).trim_end());
     Failed(MISTAKE)
 }
 
-/// A line on standard error; trouble with it is passed over.
+/// Prints a line to standard error. Failure to do so is ignored: there is nowhere left to report it.
 fn say(line: &str) {
     let _unheard = writeln!(io::stderr().lock(), "{line}");
 }

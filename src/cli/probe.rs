@@ -1,8 +1,8 @@
 //! `restframe probe`.
 
 use super::{Failed, ProbeArguments, failed, mistaken, misused, print, print_json};
-use crate::film::plot::{Page, lay_out, svg};
 use crate::frame::Frame;
+use crate::plot::{Page, lay_out, svg};
 use crate::probe::{Probe, ProbeNode, plot, probe, wide_band};
 use crate::queue::{Names, Prepared, write_atomically};
 use crate::render::View;

@@ -16,7 +16,7 @@ pub struct Development {
     /// Exposure in stops: 0 makes 100 cd/m² (W·m⁻²·sr⁻¹ of a band) 1.0, +1 doubles.
     pub exposure_stops: f64,
     /// The display's transfer from linear to encoded value, both 0 to 1: the sRGB curve.
-    /// Used by [`png::to_rgb8`](super::png::to_rgb8), not for [`Developed`].
+    /// Used by [`to_rgb8`], not for [`Developed`].
     pub encode: fn(f64) -> f64,
 }
 
@@ -49,7 +49,7 @@ pub fn develop(film: &Film, development: &Development) -> Developed {
 }
 
 /// Linear light to 8 bits: encoded, clipped to 0 … 1, rounded to nearest. Three bytes a pixel.
-pub(super) fn to_rgb8(developed: &Developed, encode: fn(f64) -> f64) -> Vec<u8> {
+pub fn to_rgb8(developed: &Developed, encode: fn(f64) -> f64) -> Vec<u8> {
     let quantize = |linear: f32| (encode(f64::from(linear)).clamp(0.0, 1.0) * 255.0).round() as u8;
     let mut rgb8 = vec![0; developed.linear.len() * 3];
     rgb8.par_chunks_exact_mut(3)

@@ -1,7 +1,7 @@
 //! What a caption says of one frame: the largest speed, the highest temperature, the time.
 
 use super::values::Frame;
-use crate::film::plot::quantity::without_zeros;
+use crate::plot::quantity::without_zeros;
 use crate::relativity::Celerity;
 use crate::shot::{Shot, Switch};
 

@@ -11,13 +11,13 @@
 
 use super::look;
 use super::plot::{SPACING, SURFACE, THERMAL_LIGHT, UNIT, curve, digits, peak, visible};
+use crate::color::cie;
 use crate::film::Channels;
-use crate::film::plot::{Axis, Color, Panel, Plot, Scale, Stroke, round_up};
 use crate::frame::{Frame, Sensor};
+use crate::plot::{Axis, Color, Panel, Plot, Scale, Stroke, round_up};
 use crate::render::{self, View};
 use crate::scene::{Scene, Thermal};
 use crate::shade::Radiance;
-use crate::spectrum::cie;
 use crate::trace::{Seen, ShadeTrees};
 
 /// Grey, so that it is told from the others without seeing colours.

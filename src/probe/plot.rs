@@ -2,13 +2,13 @@
 //! the light that is shifted into or out of it.
 
 use super::{Probe, look};
-use crate::film::plot::{Axis, Color, Panel, Plot, Scale, Series, Stroke, Tint};
+use crate::color::cie::{RANGE_NM, xyz_bar};
+use crate::color::spaces::{RGB_FROM_XYZ, apply, encode};
 use crate::frame::Frame;
+use crate::plot::{Axis, Color, Panel, Plot, Scale, Series, Stroke, Tint};
 use crate::render::View;
 use crate::scene::Scene;
 use crate::shade::Radiance;
-use crate::spectrum::cie::{RANGE_NM, xyz_bar};
-use crate::spectrum::color_space::{RGB_FROM_XYZ, apply, encode};
 use crate::spectrum::{catmull_rom, planck};
 
 /// The band that is always shown, nm: that of the 1990 paper's curves, and on to 50 µm for the

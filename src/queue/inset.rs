@@ -1,8 +1,8 @@
 //! Plots of single pixels, drawn into a frame's picture.
 
-use crate::film::plot::{LEAST_INSET, lay_out_inset, svg};
-use crate::film::raster;
 use crate::frame::Frame;
+use crate::plot::raster;
+use crate::plot::{LEAST_INSET, lay_out_inset, svg};
 use crate::probe;
 use crate::render::View;
 use crate::scene::Scene;

@@ -1,8 +1,9 @@
 //! A film to the files of one frame, as bytes.
 
 use super::inset::Seen;
-use crate::film::{self, EncodeError, Film, Metadata, SILENT, develop, exr};
+use crate::film::{self, Film, SILENT, develop};
 use crate::frame::{Frame, Sensor};
+use crate::image::{EncodeError, Metadata, SOFTWARE, exr, png};
 use crate::render::{Enough, Member, development, enough_bounces};
 use crate::scene::Scene;
 use crate::shot::{Depth, Exposure, Format, Sequence, Track};
@@ -59,7 +60,7 @@ pub fn pictures(
     for format in &frame.output.formats {
         files.push(match format {
             Format::Png => {
-                let mut rgb = film::png::to_rgb8(&developed, development.encode);
+                let mut rgb = film::to_rgb8(&developed, development.encode);
                 let seen = Seen {
                     frame,
                     scene,
@@ -67,7 +68,7 @@ pub fn pictures(
                     exposure: taken.exposure_stops,
                 };
                 warnings.extend(seen.draw_insets(&mut rgb, [width, height]));
-                ("png", film::png::encode(width, height, &rgb, &metadata)?)
+                ("png", png::encode(width, height, &rgb, &metadata)?)
             }
             Format::Exr => {
                 let depth = exr_depth(frame.output.depth);
@@ -129,7 +130,7 @@ fn metadata(frame: &Frame<'_>, scene: &Scene, taken: Taken<'_>) -> Metadata {
     let worldline = &scene.worldlines[scene.camera.worldline];
     let camera = worldline.celerity;
     Metadata {
-        software: Some(film::SOFTWARE.to_owned()),
+        software: Some(SOFTWARE.to_owned()),
         comments: frame.title.map(str::to_owned),
         frames_per_second: Some(frame.fps),
         // Camera space is the same for every projection. What describes a perspective alone is not

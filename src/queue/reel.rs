@@ -4,8 +4,8 @@ use super::because::difference;
 use super::manifest::{FileRecord, Found, Manifests, Record};
 use super::names::Names;
 use super::shots::{Request, options};
-use crate::film::imprint;
 use crate::frame::{Digests, Fingerprints, FrameFingerprint, Resolution};
+use crate::image::fingerprint;
 use crate::render::Options;
 use crate::shot::{Format, Mistakes, Shot};
 use rayon::prelude::*;
@@ -257,14 +257,14 @@ impl Reel {
     fn is_of(&self, files: &[String], key: &FrameFingerprint) -> bool {
         files.iter().all(|name| {
             let path = self.folder.join(name);
-            !path.exists() || imprint::fingerprint(&path).as_ref() == Some(&key.fingerprint)
+            !path.exists() || fingerprint::fingerprint(&path).as_ref() == Some(&key.fingerprint)
         })
     }
 
     /// Of files that say the right thing, but that no record tells the lengths of.
     fn decoded(&self, files: &[String]) -> Status {
         let size = self.keys.resolution().size;
-        let broken = |name: &&String| !imprint::is_whole(&self.folder.join(name), size);
+        let broken = |name: &&String| !fingerprint::is_whole(&self.folder.join(name), size);
         match files.iter().find(broken) {
             None => Status::Fresh,
             Some(name) => Status::Stale {

@@ -1,8 +1,8 @@
 //! Shots read and checked, and what is asked of their rendering.
 
 use super::frames::FrameList;
-use crate::film::EncodeError;
 use crate::frame::{Frame, Frames, refuse_shifted_rgb};
+use crate::image::EncodeError;
 use crate::render::{Options, metered_exposure};
 use crate::scene::{Library, Scene};
 use crate::shade::{Settings, Unresolved, unresolved};

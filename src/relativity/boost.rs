@@ -1,14 +1,31 @@
-//! Pure boosts of events and of light.
+//! Pure boosts: events, four-vectors and light seen from the rest frame of a moving body.
 
+use super::compensated::{cross, scaled_to_one};
 use super::{Celerity, Event, FourVector};
 use glam::DVec3;
 
-/// The pure boost `rest_from_lab` into the rest frame of a body of celerity u ("lab" being
-/// whichever frame u is given in), prepared for use on many rays.
+/// The pure boost `rest_from_lab` into the rest frame of a body of celerity u.
+///
+/// "Lab" stands for the frame in which u is given. What does not depend on the ray is computed
+/// once, in [`Boost::into_rest_of`], because one boost serves millions of rays.
+///
+/// # Example
+/// A star straight ahead of a ship at 0.6 c: its light is received at twice its frequency.
+/// ```
+/// use glam::DVec3;
+/// use restframe::relativity::{Boost, Celerity};
+///
+/// let ship = Celerity::from_beta(DVec3::new(0.0, 0.0, 0.6))?;
+/// let starlight = DVec3::NEG_Z; // direction of travel: from the star towards the ship
+/// let seen = Boost::into_rest_of(ship).light(starlight);
+/// assert!((seen.frequency_ratio - 2.0).abs() < 1e-15);
+/// assert_eq!(seen.direction, DVec3::NEG_Z);
+/// # Ok::<(), restframe::relativity::CelerityError>(())
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Boost {
-    /// u as given, scaled by a power of two to a length near 1: nothing is rounded, and cross
-    /// products with it neither under- nor overflow. Zero at rest.
+    /// u as given, times a power of two that brings its length near 1, so that nothing is rounded
+    /// and cross products with it neither underflow nor overflow. Zero at rest.
     axis: DVec3,
     /// |axis|.
     axis_length: f64,
@@ -17,9 +34,9 @@ pub struct Boost {
     lorentz_factor: f64,
 }
 
-/// Light seen from a boosted frame.
+/// A ray of light as a boosted frame sees it.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Light {
+pub struct SeenLight {
     /// Unit direction of travel in the boosted frame.
     pub direction: DVec3,
     /// ω_rest / ω_lab. For light that a body of this celerity emits this is 1/D; for light that
@@ -50,16 +67,17 @@ impl Boost {
         }
     }
 
-    /// Whether nothing changes: events and directions then come back bit by bit.
+    /// Whether the boost changes nothing. Events and directions then keep every bit.
     pub fn is_identity(&self) -> bool {
         self.speed == 0.0
     }
 
-    /// A four-vector in the rest frame: t′ = γt − u·x, x′ = x + u((u·x)/(γ+1) − t).
+    /// The four-vector `v` in the rest frame: t′ = γt − u·x, x′ = x + u((u·x)/(γ+1) − t)
+    /// (Møller 1972 §2.4).
     ///
-    /// From γ = 2 on in a form that does not cancel for vectors near the light cone that point
-    /// along the motion. As γ − u = 1/(γ + u), t′ = u(t − x∥) + t/(γ + u) and
-    /// x∥′ = x∥/(γ + u) − u(t − x∥).
+    /// From γ = 2 on the form used is t′ = u(t − x∥) + t/(γ + u), x∥′ = x∥/(γ + u) − u(t − x∥),
+    /// by γ − u = 1/(γ + u): it does not cancel for vectors near the light cone that point along
+    /// the motion.
     pub fn vector(&self, v: FourVector) -> FourVector {
         if self.is_identity() {
             return v;
@@ -81,18 +99,19 @@ impl Boost {
         }
     }
 
-    /// An event in the rest frame, the two origins being one event.
+    /// The event `e` in the rest frame. The origins of both frames are the same event.
     pub fn event(&self, e: Event) -> Event {
         let v = self.vector(FourVector::new(e.t, e.x));
         Event::new(v.t, v.x)
     }
 
-    /// Light of direction `d` (of any length but zero, finite) seen from the rest frame.
-    pub fn light(&self, d: DVec3) -> Light {
+    /// Light that travels along `d`, seen from the rest frame. `d` may have any finite length other
+    /// than zero; one that is not normalized loses no digit of its direction.
+    pub fn light(&self, d: DVec3) -> SeenLight {
         let d = scaled_to_one(d);
         let length = d.length();
         if self.is_identity() {
-            return Light {
+            return SeenLight {
                 direction: d / length,
                 frequency_ratio: 1.0,
             };
@@ -100,13 +119,13 @@ impl Boost {
         self.light_of_length(d, length)
     }
 
-    /// Light of the unit direction `n` seen from the rest frame: the form for many rays. A
-    /// direction rounded to f64 limits the frequency ratio to a relative γ·ε where it is within
-    /// 1/γ of the motion.
+    /// Light that travels along the unit vector `n`, seen from the rest frame: the fast form, for
+    /// many rays. Rounding `n` to f64 leaves the frequency ratio a relative error of γε where `n`
+    /// is within 1/γ of the motion.
     #[inline(always)]
-    pub fn light_of_unit(&self, n: DVec3) -> Light {
+    pub fn light_of_unit(&self, n: DVec3) -> SeenLight {
         if self.is_identity() {
-            return Light {
+            return SeenLight {
                 direction: n,
                 frequency_ratio: 1.0,
             };
@@ -114,13 +133,16 @@ impl Boost {
         self.light_of_length(n, 1.0)
     }
 
-    /// Aberration and frequency ratio without cancellation. With û×n from the vectors as given:
-    /// ratio = (1 + u²|û×n|²)/(γ + u·n) for u·n > 0, else γ − u·n;
-    /// k∥ = (n∥² − u²|û×n|²)/(γ n∥ + u) for n∥ > 0, else γ n∥ − u; k⊥ = (û×n)×û;
-    /// the direction is k over |k| = ratio, brought to unit length by one step of Newton's: else
-    /// the rounding of û would add up over many boosts there and back.
+    /// Aberration and frequency ratio, in a form without cancellation:
+    /// - ratio = (1 + u²|û×n|²)/(γ + u·n) for u·n > 0, else γ − u·n;
+    /// - k∥ = (n∥² − u²|û×n|²)/(γ n∥ + u) for n∥ > 0, else γ n∥ − u;
+    /// - k⊥ = (û×n)×û, and the direction is k/|k| with |k| = ratio.
+    ///
+    /// û×n comes from the vectors as given, before either is normalized. One Newton step brings the
+    /// direction to unit length, because the rounding of û would otherwise add up over many boosts
+    /// there and back.
     #[inline(always)]
-    fn light_of_length(&self, d: DVec3, length: f64) -> Light {
+    fn light_of_length(&self, d: DVec3, length: f64) -> SeenLight {
         let scale = 1.0 / (self.axis_length * length);
         let normal = cross(self.axis, d); // |axis| |d| û×n
         let n_along = self.axis.dot(d) * scale;
@@ -141,61 +163,13 @@ impl Boost {
         };
         let across = normal.cross(self.axis) * (scale / self.axis_length);
         let direction = (across + self.axis * (along / self.axis_length)) / ratio;
+        // Newton's step for 1/√x at x = 1.
         let excess = direction.length_squared() - 1.0;
-        Light {
+        SeenLight {
             direction: direction - direction * (0.5 * excess),
             frequency_ratio: ratio,
         }
     }
-}
-
-/// v scaled by a power of two (exactly) so that its largest component is in [1, 2); zero stays.
-pub(super) fn scaled_to_one(v: DVec3) -> DVec3 {
-    let largest = v.abs().max_element();
-    if largest == 0.0 {
-        return v;
-    }
-    // 2^±1022 cannot be left by one factor, so subnormal vectors are lifted in two steps.
-    let lifted = if largest < f64::MIN_POSITIVE {
-        v * 2f64.powi(60)
-    } else {
-        v
-    };
-    let exponent = lifted.abs().max_element().to_bits() >> 52;
-    let half = |e: i64| f64::from_bits(((1023 + e) as u64) << 52);
-    let by = 1023 - exponent as i64;
-    lifted * half(by / 2) * half(by - by / 2)
-}
-
-/// a × b with each component to 1.5 ulp, however much its two products cancel (Kahan's
-/// difference of products, by fused multiply-add).
-#[inline(always)]
-pub(super) fn cross(a: DVec3, b: DVec3) -> DVec3 {
-    DVec3::new(
-        difference_of_products(a.y, b.z, a.z, b.y),
-        difference_of_products(a.z, b.x, a.x, b.z),
-        difference_of_products(a.x, b.y, a.y, b.x),
-    )
-}
-
-/// a·b − c·d to 1.5 ulp (Jeannerod, Louvet & Muller 2013, algorithm 1).
-#[inline(always)]
-pub(crate) fn difference_of_products(a: f64, b: f64, c: f64, d: f64) -> f64 {
-    let cd = c * d;
-    a.mul_add(b, -cd) + (-c).mul_add(d, cd)
-}
-
-/// a·b as if summed in twice the precision (Ogita, Rump & Oishi 2005, Dot2).
-pub(super) fn dot(a: DVec3, b: DVec3) -> f64 {
-    let (mut sum, mut rest) = (0.0, 0.0);
-    for (x, y) in [(a.x, b.x), (a.y, b.y), (a.z, b.z)] {
-        let product = x * y;
-        let grown = sum + product;
-        let shift = grown - sum;
-        rest += (sum - (grown - shift)) + (product - shift) + x.mul_add(y, -product);
-        sum = grown;
-    }
-    sum + rest
 }
 
 #[cfg(test)]

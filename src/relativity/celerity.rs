@@ -1,14 +1,32 @@
-//! Motion of an inertial body as its celerity u = γβ, in units of c.
+//! Celerity u = γβ, the speed measure used throughout, in units of c: unlike β it keeps its digits
+//! near the speed of light.
 
-use super::boost::{cross, dot, scaled_to_one};
+use super::compensated::{cross, dot, scaled_to_one};
 use glam::DVec3;
 
-/// The space part of a four-velocity: u = γβ, in units of c. Every component is finite and
-/// |u| < 1e75, so the speed is below c.
+/// The space part of a four-velocity, u = γβ, in units of c. Every component is finite and
+/// |u| < [`Celerity::MAX`], so that every value is a speed below c.
+///
+/// # Example
+/// ```
+/// use glam::DVec3;
+/// use restframe::relativity::{Celerity, CelerityError};
+///
+/// let probe = Celerity::from_beta(DVec3::new(0.6, 0.0, 0.0))?;
+/// assert_eq!(probe.lorentz_factor(), 1.25);
+/// // Two such probes that approach each other do so at 1.2/1.36 c, not at 1.2 c.
+/// let relative = probe.seen_from(probe.reversed());
+/// assert!((relative.beta().x - 1.2 / 1.36).abs() < 1e-15);
+/// assert_eq!(
+///     Celerity::from_beta(DVec3::new(0.0, 1.0, 0.0)),
+///     Err(CelerityError::NotBelowLight(1.0))
+/// );
+/// # Ok::<(), CelerityError>(())
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Celerity(DVec3);
 
-/// Why a velocity is none.
+/// Reason why numbers do not describe the velocity of a body.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 pub enum CelerityError {
     /// |β| is 1 or more.
@@ -20,10 +38,10 @@ pub enum CelerityError {
     /// The rapidity is negative.
     #[error("rapidity {0} is negative")]
     NegativeRapidity(f64),
-    /// A moving body without a direction.
+    /// The speed is not zero but the direction is.
     #[error("a moving body needs a direction other than zero")]
     NoDirection,
-    /// NaN, infinite, or beyond [`Celerity::MAX`].
+    /// A value is NaN or infinite, or |u| is not below [`Celerity::MAX`].
     #[error("velocity is not a finite number, or its Lorentz factor is above 1e75")]
     NotFinite,
 }
@@ -32,11 +50,11 @@ impl Celerity {
     /// At rest.
     pub const REST: Self = Self(DVec3::ZERO);
 
-    /// Largest |u| accepted: what two such bodies have relative to each other, |w| up to 2·10¹⁵⁰, can
-    /// still be squared.
+    /// Bound on |u|. The relative celerity of two such bodies, up to 2·10¹⁵⁰, can still be squared
+    /// without overflow.
     pub const MAX: f64 = 1e75;
 
-    /// From the celerity itself, u = γβ.
+    /// A celerity from its components u = γβ, in units of c.
     ///
     /// # Errors
     /// [`CelerityError::NotFinite`] unless |u| < [`Celerity::MAX`].
@@ -49,10 +67,11 @@ impl Celerity {
         }
     }
 
-    /// From a velocity β, |β| < 1, by γβ = β/√((1−|β|)(1+|β|)).
+    /// A celerity from a velocity β in units of c, |β| < 1, by γβ = β/√((1−|β|)(1+|β|)).
     ///
     /// # Errors
-    /// When |β| is 1 or more, or not finite.
+    /// [`CelerityError::NotBelowLight`] if |β| is 1 or more, [`CelerityError::NotFinite`] if a
+    /// component is not finite.
     pub fn from_beta(beta: DVec3) -> Result<Self, CelerityError> {
         if !beta.is_finite() {
             return Err(CelerityError::NotFinite);
@@ -64,11 +83,12 @@ impl Celerity {
         Self::new(beta / ((1.0 - speed) * (1.0 + speed)).sqrt())
     }
 
-    /// From a Lorentz factor γ ≥ 1 and a direction of any length, by u = √((γ−1)(γ+1)): β, which
-    /// cannot hold γ = 10⁸, is never formed. The direction may be zero only at γ = 1.
+    /// A celerity from a Lorentz factor γ ≥ 1 and a direction of any length, by
+    /// u = √((γ−1)(γ+1)). β, which cannot tell γ = 10⁸ from c, is never formed. The direction may
+    /// be zero only at γ = 1.
     ///
     /// # Errors
-    /// When γ is below 1 or not finite, or the direction is missing.
+    /// If γ is below 1 or not finite, or if a direction is needed and is zero or not finite.
     pub fn from_lorentz_factor(
         lorentz_factor: f64,
         direction: DVec3,
@@ -85,11 +105,11 @@ impl Celerity {
         )
     }
 
-    /// From a rapidity η ≥ 0 and a direction of any length, by u = sinh η. The direction may be
-    /// zero only at η = 0.
+    /// A celerity from a rapidity η ≥ 0 and a direction of any length, by u = sinh η. The direction
+    /// may be zero only at η = 0.
     ///
     /// # Errors
-    /// When η is negative or not finite, or the direction is missing.
+    /// If η is negative or not finite, or if a direction is needed and is zero or not finite.
     pub fn from_rapidity(rapidity: f64, direction: DVec3) -> Result<Self, CelerityError> {
         if rapidity < 0.0 {
             return Err(CelerityError::NegativeRapidity(rapidity));
@@ -111,22 +131,22 @@ impl Celerity {
         Self::new(direction / length * u)
     }
 
-    /// u = γβ, in units of c.
+    /// The components of u = γβ, in units of c.
     pub fn vector(self) -> DVec3 {
         self.0
     }
 
-    /// |u|.
+    /// The length |u|, in units of c.
     pub fn magnitude(self) -> f64 {
         length(self.0)
     }
 
-    /// γ = √(1 + u²).
+    /// The Lorentz factor γ = √(1 + u²).
     pub fn lorentz_factor(self) -> f64 {
         1f64.hypot(self.magnitude())
     }
 
-    /// β = u/γ; its length rounds to 1 from about γ = 10⁸ on.
+    /// The velocity β = u/γ, in units of c. Its length rounds to 1 from about γ = 10⁸ on.
     pub fn beta(self) -> DVec3 {
         self.0 / self.lorentz_factor()
     }
@@ -136,18 +156,17 @@ impl Celerity {
         self.0 == DVec3::ZERO
     }
 
-    /// The same speed the other way.
+    /// The same speed in the opposite direction.
     pub fn reversed(self) -> Self {
         Self(-self.0)
     }
 
-    /// The celerity w of this body in the rest frame of one of celerity `u`, axes from the common
-    /// frame's by a pure boost.
+    /// The celerity w of this body (v) in the rest frame of a body of celerity `u`, whose axes come
+    /// from those of the common frame by a pure boost (Møller 1972 §2.7).
     ///
-    /// From the difference δ = v − u rather than the difference of products, so that two bodies
-    /// at γ = 10⁶ side by side are as exact as two at rest:
-    /// w⊥ = δ⊥, w∥ = ((δ·û)(v∥ + u) − |u×δ|²)/(γ_u v∥ + u γ_v) for v∥ = v·û > 0, and
-    /// γ_u v∥ − u γ_v otherwise, where both terms have one sign.
+    /// Computed from the difference δ = v − u, so that two bodies at γ = 10⁶ side by side are as
+    /// exact as two at rest: w⊥ = δ⊥; w∥ = ((δ·û)(v∥ + u) − |u×δ|²)/(γ_u v∥ + u γ_v) for
+    /// v∥ = v·û > 0; and w∥ = γ_u v∥ − u γ_v otherwise, where both terms have the same sign.
     pub fn seen_from(self, u: Celerity) -> Celerity {
         if u.is_rest() {
             return self;

@@ -1,5 +1,5 @@
-//! Points of spacetime and the differences between them: the same four numbers, two types, since
-//! a translation moves the one and not the other.
+//! Points of spacetime and differences between them. Both are four numbers, but two types, because
+//! a translation changes a point and leaves a difference as it is.
 
 use glam::DVec3;
 use std::ops::{Add, Sub};
@@ -14,7 +14,7 @@ pub struct Event {
     pub x: DVec3,
 }
 
-/// A difference of two events, or a multiple of a direction through spacetime; metres.
+/// A difference of two events, or a direction through spacetime; in metres.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FourVector {
     /// Time component.
@@ -31,7 +31,7 @@ impl Event {
 }
 
 impl FourVector {
-    /// No difference.
+    /// The difference of an event from itself.
     pub const ZERO: Self = Self {
         t: 0.0,
         x: DVec3::ZERO,
@@ -42,8 +42,8 @@ impl FourVector {
         Self { t, x }
     }
 
-    /// The invariant interval −t² + x², in m²: negative for timelike, zero for light. Written as
-    /// a product, so that it holds near the light cone.
+    /// The invariant interval −t² + x², in m²: negative if timelike, zero for light, positive if
+    /// spacelike. Computed as a product, which keeps its digits near the light cone.
     pub fn interval(self) -> f64 {
         let distance = self.x.length();
         (distance - self.t) * (distance + self.t)

@@ -1,4 +1,4 @@
-//! Where the past light cone of an event meets a body at rest.
+//! Retardation: the event at which light left a point at rest to reach a given event.
 
 use super::Event;
 use glam::DVec3;
@@ -6,7 +6,7 @@ use glam::DVec3;
 /// Light from a resting point to an event, in the point's rest frame.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Arrival {
-    /// When and where it was emitted.
+    /// When and where the light was emitted.
     pub emission: Event,
     /// Unit direction of travel, from the point to the event.
     pub direction: DVec3,
@@ -14,9 +14,10 @@ pub struct Arrival {
     pub distance: f64,
 }
 
-/// The light that reaches `event` from a point that always rests at `position`, both in the
-/// point's rest frame: emitted at t − |x − position|, the only event of the point's worldline on
-/// the past cone. None where the point is at the event itself.
+/// Light that reaches `event` from a point that rests at `position`, both in the point's rest frame.
+///
+/// It is emitted at t − |x − position|, the one event of the point's worldline on the past light
+/// cone (Møller 1972 §2.6). None if the event is at the point itself, where light has no direction.
 pub fn light_arriving(event: Event, position: DVec3) -> Option<Arrival> {
     let path = event.x - position;
     let (direction, distance) = direction_and_length(path)?;
@@ -27,10 +28,10 @@ pub fn light_arriving(event: Event, position: DVec3) -> Option<Arrival> {
     })
 }
 
-/// Unit vector and length, to all digits of any vector that is finite and not zero: where squares
-/// would leave the numbers, in multiples of its largest component.
+/// Unit vector and length of a finite vector, to all digits; None for zero. Where squares would
+/// underflow or overflow, lengths are taken in multiples of the largest component.
 fn direction_and_length(v: DVec3) -> Option<(DVec3, f64)> {
-    /// Squares of lengths that keep their digits.
+    /// Squares of lengths that neither underflow nor overflow in part.
     const SQUARES: std::ops::Range<f64> = 1e-280..1e280;
     let square = v.length_squared();
     let unit = if SQUARES.contains(&square) {

@@ -1,10 +1,10 @@
 //! The renderer on one page: plan, trace, shade, film.
 
+use crate::color::spaces;
 use crate::film::{Channels, Development, Film};
 use crate::frame::Frame;
 use crate::scene::Scene;
 use crate::shot::{Layer, SensorColor};
-use crate::spectrum::color_space;
 use crate::trace::Stage;
 
 mod band;
@@ -90,10 +90,10 @@ pub fn development(color: SensorColor, exposure_stops: f64) -> Development {
     const IDENTITY: [[f64; 3]; 3] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
     Development {
         rgb_from_xyz: match channels(color) {
-            Channels::Xyz => color_space::RGB_FROM_XYZ,
+            Channels::Xyz => spaces::RGB_FROM_XYZ,
             Channels::Bands => IDENTITY,
         },
         exposure_stops,
-        encode: color_space::encode,
+        encode: spaces::encode,
     }
 }

@@ -1,8 +1,8 @@
 //! Bodies: meshes, and where their instances stand in the rest frames of worldlines.
 
 use super::library::Library;
-use super::model::Mesh;
 use crate::frame::{Array, Model};
+use crate::model::Mesh;
 use glam::{DAffine3, DVec3, Vec3};
 use std::sync::Arc;
 

@@ -1,10 +1,10 @@
 //! Everything a shot reads from other files, read once: model files, measured spectra, skies.
 
-use super::model::{self, Mesh, Model, Warning};
 use super::sky::{SkyImage, Star, Stars, random_stars};
+use crate::model::{self, Mesh, Model, Warning};
 use crate::shot::{self, Mistake, Mistakes, SAVE_AS_UTF8, Shot};
 use crate::spectrum::Sampled;
-use crate::spectrum::sampled::Measured;
+use crate::spectrum::csv::Measured;
 use indexmap::IndexSet;
 use std::collections::HashMap;
 use std::fs;

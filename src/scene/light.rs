@@ -1,10 +1,11 @@
 //! Lamps, each at rest in a worldline of its own.
 
-use super::model::{LUMENS_PER_WATT, Lamp, LampKind};
 use super::spectra::Spectra;
 use crate::frame::{self, Amount};
+use crate::model::{LUMENS_PER_WATT, Lamp, LampKind};
 use crate::shot::{LightKind, LightUnits};
-use crate::spectrum::{Spectrum, SpectrumError, cie};
+use crate::spectrum::luminous_integral;
+use crate::spectrum::{Spectrum, SpectrumError};
 use glam::{DAffine3, DVec3};
 use std::f64::consts::PI;
 use std::sync::Arc;
@@ -104,7 +105,7 @@ impl Light {
         let scale = match light.amount {
             Amount::Spectral(scale) => scale,
             Amount::Photometric(intensity) => {
-                let lumens = cie::luminous_integral(&spectrum);
+                let lumens = luminous_integral(&spectrum);
                 if !(lumens > 0.0 && (intensity / lumens).is_finite()) {
                     return Err(LightError::Dark);
                 }

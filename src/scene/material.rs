@@ -1,8 +1,8 @@
 //! What surfaces do with light, in their rest frame.
 
-use super::model::ModelMaterial;
 use super::spectra::Spectra;
 use crate::frame;
+use crate::model::ModelMaterial;
 use crate::shot::ThermalCurve;
 use crate::spectrum::{Spectrum, SpectrumError};
 use std::sync::Arc;

@@ -5,7 +5,6 @@
 //! In: a [`Frame`](crate::frame::Frame), and the [`Library`] of the files that its shot names. Out: a
 //! [`Scene`].
 
-pub mod model;
 pub mod sky;
 
 mod body;
@@ -18,12 +17,12 @@ mod resolve;
 mod spectra;
 mod surfaces;
 
+pub use crate::model::Mesh;
 pub use body::{Geometry, Instance, SurfacePoint};
 pub use camera::Camera;
 pub use library::Library;
 pub use light::{Light, LightShape};
 pub use material::{Curve, Highlight, Material, Reflectance, Refraction, Thermal};
-pub use model::Mesh;
 pub use projection::Projection;
 pub use resolve::Scene;
 pub use sky::Background;

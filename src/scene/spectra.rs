@@ -1,11 +1,12 @@
 //! A frame's spectra as curves.
 
 use super::library::Library;
+use crate::color::spaces::XYZ_FROM_RGB;
 use crate::frame;
 use crate::shot;
-use crate::spectrum::color_space::XYZ_FROM_RGB;
+use crate::spectrum::luminous_integral;
 use crate::spectrum::{
-    self, Cardinal, PlanckShape, Spectrum, SpectrumError, Tinted, Uplift, cie, illuminant,
+    self, Cardinal, PlanckShape, Spectrum, SpectrumError, Tinted, Uplift, illuminant,
 };
 use std::sync::Arc;
 
@@ -65,7 +66,7 @@ impl Spectra<'_> {
     /// luminance of that colour where white has `white`: cd/m², and so cd and lx.
     pub(super) fn light(rgb: [f64; 3], white: f64) -> Result<(Tinted, f64), SpectrumError> {
         let curve = Tinted::new(rgb)?;
-        let lumens = cie::luminous_integral(&Spectrum::Tinted(curve.clone()));
+        let lumens = luminous_integral(&Spectrum::Tinted(curve.clone()));
         // About green, since the three shares are 1 together: a grey's is exact.
         let ([r, g, b], [red, _, blue]) = (rgb, XYZ_FROM_RGB[1]);
         let luminance = g + red * (r - g) + blue * (b - g);

@@ -1,9 +1,9 @@
 //! Which material each surface of a model has: the shot's, the file's, or one laid over the other.
 
 use super::material::{Material, MaterialError};
-use super::model::ModelMaterial;
 use super::resolve::Resolver;
 use super::spectra::Spectra;
+use crate::model::ModelMaterial;
 
 /// What surfaces to which neither file nor shot gives a material have: glTF's default, which is white
 /// (glTF 2.0, section 5.19).

@@ -16,7 +16,7 @@ use super::still::{self, Still, StillError};
 use super::target::Target;
 use super::verify::{is_asked, verify_until};
 use super::video::{self, Video};
-use crate::film::rational_rate;
+use crate::image::rational_rate;
 use crate::queue::{Reel, ReelError, Status, Stop};
 use crate::shot::Shot;
 use rayon::prelude::*;

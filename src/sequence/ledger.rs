@@ -2,8 +2,8 @@
 //! right is not made again. STEM.sequence.jsonl, beside the manifest.
 
 use super::output::Output;
-use crate::film::decode::open;
 use crate::frame::Caption;
+use crate::image::decode::open;
 use crate::queue::{Reel, open_plain};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};

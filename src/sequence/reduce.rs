@@ -1,7 +1,7 @@
 //! Pictures made smaller, in linear light: each pixel is the mean over the area that it covers.
 
 use super::still::Still;
-use crate::spectrum::color_space;
+use crate::color::spaces;
 
 /// A still at another size, no side of it larger than before. A picture of that size stays as it
 /// is.
@@ -10,7 +10,7 @@ pub(super) fn reduce(still: &Still, width: u32, height: u32) -> Still {
         return still.clone();
     }
     let linear: Vec<f32> = (0..=255_u8)
-        .map(|byte| color_space::decode(f64::from(byte) / 255.0) as f32)
+        .map(|byte| spaces::decode(f64::from(byte) / 255.0) as f32)
         .collect();
     let stride = still.width as usize * 3;
     let mut rgb8 = Vec::with_capacity(width as usize * height as usize * 3);
@@ -30,7 +30,7 @@ pub(super) fn reduce(still: &Still, width: u32, height: u32) -> Still {
                     *sum += weight * value;
                 }
             }
-            let encode = |linear: f32| color_space::encode(f64::from(linear)) * 255.0;
+            let encode = |linear: f32| spaces::encode(f64::from(linear)) * 255.0;
             rgb8.extend(sum.map(|linear| encode(linear).round().clamp(0.0, 255.0) as u8));
         }
     }

@@ -1,6 +1,6 @@
 //! A finished frame as pixels.
 
-use crate::film::decode::{self, Decoded, Fault};
+use crate::image::decode::{self, Decoded, Fault};
 use crate::queue::Reel;
 use crate::render::development;
 use crate::shot::{Format, Shot};

@@ -1,22 +1,22 @@
-//! `[accuracy]`: what is approximated, and how finely. `restframe study` measures what each key
-//! costs in time and brings in exactness; the presets are its findings.
+//! `[accuracy]`: approximations, and how fine they are. `restframe study` measures time and error of
+//! each key; the presets follow from its results.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// How exactly an image is computed: every key of `[accuracy]` has its value.
+/// Accuracy of an image, with a value for every key of `[accuracy]`.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(from = "AccuracyKeys")]
 pub struct Accuracy {
-    /// How curves are held.
+    /// Representation of spectra.
     pub spectra: Spectra,
-    /// Wavelengths over the sensor's window, in equal ratios.
+    /// Number of wavelengths over the sensor's window, in equal ratios.
     pub wavelengths: u32,
     /// Distance of spectral lines, nm.
     pub line_spacing: f64,
     /// Precision of rays and triangles in rest frames.
     pub tracing: Precision,
-    /// Share of mirrored and refracted light that is not followed.
+    /// Share of mirrored and refracted light below which it is not followed.
     pub cutoff: f64,
 }
 
@@ -26,7 +26,7 @@ impl Default for Accuracy {
     }
 }
 
-/// A choice of all keys of `[accuracy]`.
+/// A set of values for all keys of `[accuracy]`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum Preset {
@@ -40,7 +40,7 @@ pub enum Preset {
 }
 
 impl Preset {
-    /// What the preset chooses.
+    /// The values of the preset.
     pub fn accuracy(self) -> Accuracy {
         let normal = Accuracy {
             spectra: Spectra::Grid,
@@ -65,7 +65,7 @@ impl Preset {
     }
 }
 
-/// `[accuracy]` as its author wrote it: what a key does not say the preset does.
+/// `[accuracy]` as its author wrote it; the preset gives the keys that are left out.
 #[derive(Debug, Clone, Copy, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 #[schemars(rename = "Accuracy")]

@@ -1,5 +1,5 @@
-//! What moves and what stands on it: worldlines with their velocities, models with their
-//! placement. Velocities in units of c, lengths in metres, times in seconds, angles in degrees.
+//! Worldlines and their velocities, models and their placement. Velocities in units of c, lengths in
+//! meters, times in seconds, angles in degrees.
 
 use super::Track;
 use indexmap::IndexMap;
@@ -21,7 +21,8 @@ pub struct Worldline {
     pub at: Track<f64>,
 }
 
-/// A velocity, by whichever measure its author prefers.
+/// A velocity, by the measure that its author prefers. It may change from frame to frame; within a
+/// frame the motion is uniform, so that a ramp is a series of inertial scenes and not an acceleration.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(untagged)]
 pub enum Velocity {
@@ -55,7 +56,7 @@ pub struct RapidityVelocity {
     pub direction: Track<[f64; 3]>,
 }
 
-/// `[[model]]`: a model file and where it stands: scaled, rotated, translated, then arrayed.
+/// `[[model]]`: a model file and its placement: scaled, rotated, translated, then arrayed.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Model {
@@ -82,7 +83,7 @@ pub struct Model {
     pub light_units: Option<LightUnits>,
 }
 
-/// Units of the lamps in a model file. Nothing in the file tells them apart.
+/// Units of the lamps in a model file. The file itself does not record them.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum LightUnits {
@@ -96,7 +97,7 @@ pub enum LightUnits {
 }
 
 impl Model {
-    /// The name of the shot's material for surfaces of a material of the file.
+    /// The name of the shot's material for surfaces that have the material `of_file` in the file.
     pub fn given_material(&self, of_file: &str) -> Option<&String> {
         self.material
             .as_ref()

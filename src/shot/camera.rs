@@ -1,11 +1,11 @@
-//! The camera as its author placed it. Metres and degrees in its worldline's rest frame; yaw 0
-//! looks along −z with +y up.
+//! The camera: placement in the rest frame of its worldline, field of view, projection. Meters and
+//! degrees; yaw 0 looks along −z with +y up.
 
 use super::Track;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// `[camera]`: where it is, where it looks, how wide.
+/// `[camera]`: its position, direction and field of view.
 #[derive(Debug, Clone, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Camera {

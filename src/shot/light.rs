@@ -1,5 +1,4 @@
-//! What lights the scene: lamps. Everything is in the rest frame of the worldline it rides on:
-//! metres, candelas, lux, degrees.
+//! Lamps. All values are in the rest frame of the lamp's worldline: meters, candelas, lux, degrees.
 
 use super::{SpectrumValue, Track};
 use schemars::JsonSchema;

@@ -1,29 +1,29 @@
-//! The files that a shot names.
+//! The files that a shot names, other than the files that models name in turn.
 
-use super::file_names;
+use super::load::with_slashes;
 use super::{Shot, SpectrumTable, SpectrumValue, Stars};
 use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 
 impl Shot {
-    /// A path of the shot, which is relative to the shot file.
+    /// The path of a file that the shot names: relative paths start at the shot's folder.
     pub fn beside(&self, file: &Path) -> PathBuf {
         self.path
             .parent()
             .map_or_else(|| file.to_owned(), |folder| folder.join(file))
     }
 
-    /// Takes the names of files as other systems write them for what they mean here.
-    pub(super) fn settle_file_names(&mut self) {
+    /// Replaces `\\` by `/` in file names that only then lead to a file.
+    pub(super) fn normalize_file_names(&mut self) {
         let folder = self.path.parent().unwrap_or(Path::new("")).to_owned();
         for file in self.files_mut() {
-            if let Some(settled) = file_names::settled(&folder, file) {
-                *file = settled;
+            if let Some(slashed) = with_slashes(&folder, file) {
+                *file = slashed;
             }
         }
     }
 
-    /// The name of every file, used or not.
+    /// The names of all files, used or not, mutable.
     fn files_mut(&mut self) -> Vec<&mut PathBuf> {
         let sky = &mut self.background;
         let terms = self.material.values_mut().flat_map(|m| m.spectra_mut());
@@ -45,7 +45,7 @@ impl Shot {
         models.chain(spectra).chain(of_sky).collect()
     }
 
-    /// The names of spectra that materials, lamps and the background use.
+    /// The names of `[spectrum.NAME]` tables that materials, lamps and the background use.
     pub fn used_spectra(&self) -> HashSet<&str> {
         let values = self.spectrum_values().into_iter();
         let named = values.filter_map(|(_, value)| match value {
@@ -55,7 +55,7 @@ impl Shot {
         named.collect()
     }
 
-    /// Every place where a spectrum is used, by its key.
+    /// Every use of a spectrum, with its key.
     fn spectrum_values(&self) -> Vec<(String, &SpectrumValue)> {
         let mut values: Vec<(String, &Option<SpectrumValue>)> = Vec::new();
         for (name, material) in &self.material {
@@ -72,7 +72,7 @@ impl Shot {
             .collect()
     }
 
-    /// Every spectrum table, with its key; a file that one names is read from here.
+    /// Every spectrum table, inline or named, with its key. The library reads their files.
     pub fn spectrum_tables(&self) -> Vec<(String, &SpectrumTable)> {
         let values = self.spectrum_values().into_iter();
         let inline = values.filter_map(|(key, value)| match value {
@@ -86,7 +86,7 @@ impl Shot {
         inline.chain(named).collect()
     }
 
-    /// The files whose values it uses beside those of models, each with its key: spectra, sky, stars.
+    /// The files of used spectra, sky image and stars, each with its key; models are not included.
     pub fn data_files(&self) -> Vec<(String, &Path)> {
         let used = self.used_spectra();
         let is_used = |key: &str| {

@@ -1,14 +1,15 @@
-//! Words as messages show them: quoted, shortened, and with the name that was perhaps meant.
+//! Words and names in messages: quoted, shortened, and with the name that was perhaps meant.
 
-/// Longest piece of the author's text that a message repeats, in characters.
+/// Number of characters of the author's text that a message repeats at most.
 const MAX_QUOTED: usize = 60;
-/// Most names that are compared with a misspelt one, and listed where none is near.
+/// Number of names that are compared with a misspelled one.
 const MAX_COMPARED: usize = 1000;
+/// Number of names that a message lists if none is near.
 const MAX_LISTED: usize = 16;
-/// Jaro-Winkler similarity from which on a name counts as perhaps meant.
+/// Jaro-Winkler similarity above which a name counts as perhaps meant.
 const SIMILAR: f64 = 0.78;
 
-/// The author's text, cut to a length that fits a message, control characters escaped.
+/// The author's text, cut to a length that fits a message, with control characters escaped.
 pub(super) fn short(text: &str) -> String {
     let mut cut: String = text.chars().take(MAX_QUOTED).flat_map(visible).collect();
     if text.chars().nth(MAX_QUOTED).is_some() {
@@ -37,7 +38,7 @@ pub(super) fn nearest<'a>(word: &str, known: impl Iterator<Item = &'a str>) -> O
         .map(|(_, name)| name)
 }
 
-/// "did you mean …", or what there is to choose from.
+/// Remedy for an unknown name: "did you mean …?", or the names to choose from after `what`.
 pub(super) fn did_you_mean<'a>(
     word: &str,
     known: impl Iterator<Item = &'a str> + Clone,

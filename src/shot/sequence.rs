@@ -1,4 +1,4 @@
-//! `[sequence]` and `[[inset]]`: what is made of the finished frames, and what is drawn into them.
+//! `[sequence]`, what is assembled from finished frames, and `[[inset]]`, plots drawn into them.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -34,7 +34,7 @@ impl Default for Sequence {
     }
 }
 
-/// Most frames in a row of a sheet.
+/// Largest number of frames in a row of a contact sheet.
 pub const MOST_COLUMNS: u32 = 100;
 
 /// A contact sheet.
@@ -84,13 +84,13 @@ pub struct Inset {
     pub size: f64,
 }
 
-/// Width of an inset to its height.
+/// Ratio of width to height of an inset.
 const ASPECT: f64 = 4.0 / 3.0;
-/// Between an inset and the image's edges, of the image's height.
+/// Distance of an inset from the image's edges, as a share of the image's height.
 const MARGIN: f64 = 0.02;
 
 impl Inset {
-    /// The pixel that it tells of, in an image of this size.
+    /// The pixel whose curves are plotted, in an image of this size.
     pub fn pixel_of(&self, size: [u32; 2]) -> [u32; 2] {
         match self.pixel {
             InsetPixel::At(pixel) => pixel,
@@ -98,8 +98,8 @@ impl Inset {
         }
     }
 
-    /// Its upper left pixel and its size in an image of this size: four to three, and smaller than
-    /// `size` says where the image is too narrow or too low for it.
+    /// Upper left pixel and size of the inset in an image of this size. The ratio of its sides is 4:3;
+    /// it is smaller than `size` if the image has no room for it.
     pub fn place_in(&self, [width, height]: [u32; 2]) -> ([u32; 2], [u32; 2]) {
         let margin = (MARGIN * f64::from(height)).round();
         let margin = margin.min(f64::from(width.min(height) / 2));

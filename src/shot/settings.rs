@@ -1,20 +1,20 @@
-//! The settings of a shot that place nothing in the scene: clock, image, effects, sensor,
-//! output. Every key has a default; units are in each key's comment.
+//! Settings of a shot that place nothing in the scene: clock, image, effects, sensor, output. Every
+//! key has a default; its comment states the unit.
 
 use super::Track;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// Most surfaces that light may be followed by.
+/// Upper bound on `effects.bounces`.
 pub const MOST_BOUNCES: u32 = 64;
 
-/// Most pixels on a side of an image.
+/// Largest number of pixels on a side of an image.
 pub const LARGEST_SIDE: u32 = 32768;
 
-/// Shortest wavelength that a sensor may see, nm: gamma rays of 1 TeV and more.
+/// Shortest wavelength of a sensor's window, nm: gamma rays of 1 TeV.
 const SHORTEST_NM: f64 = 1e-9;
 
-/// Longest wavelength that a sensor may see, nm: radio of 300 Hz.
+/// Longest wavelength of a sensor's window, nm: radio waves of 300 Hz.
 const LONGEST_NM: f64 = 1e15;
 
 /// `[shot]`: title, length and clock of the sequence.

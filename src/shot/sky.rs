@@ -1,22 +1,22 @@
-//! What lies behind the scene: a spectrum or an image all around, and stars before it. Everything
-//! is at rest in the worldline that the background rides on: nanometres, kelvins, degrees.
+//! The background of the scene: a spectrum or an image all around, and stars in front of it. All of
+//! it is at rest in the worldline of the background. Nanometers, kelvins, degrees.
 
 use super::{SpectrumValue, Track};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 
-/// Most stars of a sky.
+/// Largest number of stars of a sky.
 pub const MOST_STARS: u32 = 1_000_000;
 
-/// Lowest and highest temperature of a star, K: colder, it has no light to see, and none has been
-/// thought of that is hotter.
+/// Lowest and highest temperature of a star, K. A colder one has no visible light; no hotter one is
+/// known.
 pub const STAR_KELVIN: [f64; 2] = [500.0, 1e9];
 
-/// Least and greatest visual magnitude of a star.
+/// Lowest and highest visual magnitude of a star.
 pub const STAR_MAGNITUDE: [f64; 2] = [-50.0, 50.0];
 
-/// `[background]`: what is seen where no surface is.
+/// `[background]`: seen where no surface is.
 #[derive(Debug, Clone, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Background {
@@ -40,7 +40,7 @@ pub struct Background {
 pub enum Stars {
     /// From a catalogue.
     Catalogue(StarCatalogue),
-    /// Strewn at random.
+    /// Distributed at random.
     Random(RandomStars),
 }
 
@@ -66,7 +66,7 @@ pub struct StarCatalogue {
     pub size: f64,
 }
 
-/// Stars strewn at random, the same for the same keys on every machine.
+/// Stars distributed at random, the same for the same keys on every machine.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct RandomStars {

@@ -1,51 +1,46 @@
-//! Text from the bytes of a file: UTF-8, and a name for what else they are.
+//! Text from the bytes of a file: UTF-8 or a named error, and its lines. A line ends in LF, CR LF or
+//! CR alone.
 
-/// What to do about a file that is none.
+use std::io::{self, BufRead};
+
+/// Remedy for a file that is not UTF-8 text.
 pub const SAVE_AS_UTF8: &str = "save the file as UTF-8";
 
-/// Why bytes are no text that is read.
+/// Reason why bytes cannot be read as text.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 pub enum TextError {
-    /// UTF-16, by its byte order mark or the zero bytes of its letters.
+    /// UTF-16, recognized by [`is_utf16`].
     #[error("the file is UTF-16 text, not UTF-8")]
     Utf16,
     /// Zero bytes.
     #[error("the file is not text: line {line} has zero bytes")]
     Zeros {
-        /// Which line, from 1.
+        /// Line number, from 1.
         line: usize,
     },
-    /// Bytes of some other encoding.
+    /// Bytes in some other encoding.
     #[error(
         "the file is not UTF-8 text: line {line} has the byte 0x{byte:02X}, which in Latin-1 is `{}`", char::from(*.byte)
     )]
     Other {
-        /// Which line, from 1.
+        /// Line number, from 1.
         line: usize,
         /// The first of those bytes.
         byte: u8,
     },
 }
 
-/// The text that the bytes of a file are.
+/// The bytes of a file as UTF-8 text.
 ///
 /// # Errors
-/// What they are instead.
+/// What the bytes are instead.
 pub fn text_of(bytes: Vec<u8>) -> Result<String, TextError> {
-    if bytes.starts_with(&[0xff, 0xfe]) || bytes.starts_with(&[0xfe, 0xff]) {
+    if is_utf16(&bytes) {
         return Err(TextError::Utf16);
     }
     if let Some(at) = bytes.iter().position(|byte| *byte == 0) {
-        // Without a mark, every second byte of plain letters is zero.
-        let start = &bytes[..bytes.len().min(64)];
-        let zeros = |first| start.iter().skip(first).step_by(2).all(|byte| *byte == 0);
-        let wide = start.len() > 1 && zeros(0) != zeros(1);
-        return Err(if wide {
-            TextError::Utf16
-        } else {
-            let line = line_of(&bytes[..at]);
-            TextError::Zeros { line }
-        });
+        let line = line_of(&bytes[..at]);
+        return Err(TextError::Zeros { line });
     }
     String::from_utf8(bytes).map_err(|error| {
         let at = error.utf8_error().valid_up_to();
@@ -55,7 +50,45 @@ pub fn text_of(bytes: Vec<u8>) -> Result<String, TextError> {
     })
 }
 
-/// The line that comes after these bytes, from 1; lines end in LF, CR LF or CR.
+/// Whether bytes are UTF-16 text: by the byte order mark or, without one, because one byte of the
+/// first letter is zero and the other is not.
+pub fn is_utf16(bytes: &[u8]) -> bool {
+    matches!(
+        bytes,
+        [0xFF, 0xFE, ..] | [0xFE, 0xFF, ..] | [0, 1..=255, ..] | [1..=255, 0, ..]
+    )
+}
+
+/// Calls `each` with the number, from 1, and the trimmed text of every line. Bytes that are not UTF-8
+/// are replaced. A byte order mark at the front of any line is skipped: files are concatenated.
+///
+/// # Errors
+/// The outer error is that of reading, the inner one the first of `each`.
+pub fn each_line<E>(
+    mut reader: impl BufRead,
+    mut each: impl FnMut(usize, &str) -> Result<(), E>,
+) -> io::Result<Result<(), E>> {
+    let mut number = 0;
+    let mut bytes = Vec::new();
+    while reader.read_until(b'\n', &mut bytes)? > 0 {
+        let ends = |b: &u8| matches!(b, b'\n' | b'\r');
+        let length = bytes
+            .iter()
+            .rposition(|b| !ends(b))
+            .map_or(0, |last| last + 1);
+        for line in bytes[..length].split(|b| *b == b'\r') {
+            number += 1;
+            let line = String::from_utf8_lossy(line);
+            if let Err(error) = each(number, line.trim_start_matches('\u{FEFF}').trim()) {
+                return Ok(Err(error));
+            }
+        }
+        bytes.clear();
+    }
+    Ok(Ok(()))
+}
+
+/// The number, from 1, of the line in which the byte after `before` is.
 fn line_of(before: &[u8]) -> usize {
     let ends = |i: &usize| match before[*i] {
         b'\n' => true,

@@ -1,8 +1,8 @@
 //! A value over the frames of a shot: a constant, a ramp or keys.
 //!
-//! Frames are numbered from 1; between keys the value is interpolated, before the first and
-//! after the last it holds. Interpolated values never leave the range that the two authored
-//! ones span, and two equal ones give that value exactly.
+//! Frames are numbered from 1. Between keys the value is interpolated; before the first and after the
+//! last key it is constant. An interpolated value is never outside the two authored ones, and is
+//! exactly their value if they are equal.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -51,7 +51,7 @@ impl<T: Default> Default for Track<T> {
     }
 }
 
-/// What a [`Track`] can interpolate.
+/// A type that a [`Track`] can interpolate.
 pub trait Blend: Copy + PartialEq {
     /// The value a share `t` (0 to 1) of the way from `self` to `other`.
     #[must_use]
@@ -60,7 +60,7 @@ pub trait Blend: Copy + PartialEq {
 
 impl Blend for f64 {
     fn blend(self, other: f64, t: f64) -> f64 {
-        // Rounding may lead out of the range, by an ulp.
+        // Rounding may leave the range by an ulp.
         (self * (1.0 - t) + other * t)
             .max(self.min(other))
             .min(self.max(other))
@@ -91,12 +91,12 @@ impl<T: Blend> Track<T> {
         }
     }
 
-    /// All values its author wrote, whether a frame reaches them or not.
+    /// All values that the author wrote, also those that no frame reaches.
     pub fn values(&self) -> impl Iterator<Item = T> + '_ {
         self.authored().into_iter().map(|(_, value)| value)
     }
 
-    /// Whether it has the same value in every frame.
+    /// Whether the value is the same in every frame.
     pub fn is_constant(&self) -> bool {
         let mut values = self.values();
         let first = values.next();
@@ -116,7 +116,7 @@ impl<T: Blend> Track<T> {
         }
     }
 
-    /// The frame numbers at which its author fixed it.
+    /// The frame numbers for which the author gave a value.
     pub(crate) fn authored_frames(&self, frames: u32) -> Vec<f64> {
         match self {
             Track::Constant(_) => vec![1.0],
@@ -126,7 +126,7 @@ impl<T: Blend> Track<T> {
     }
 }
 
-/// The value at `frame` of keys that ascend; there is at least one, as `load` has checked.
+/// The value at `frame` of ascending keys, of which there is at least one (`load` checks both).
 fn between_keys<T: Blend>(keys: &[(f64, T)], ease: Ease, frame: f64) -> T {
     let next = keys.partition_point(|(at, _)| *at <= frame);
     if next == 0 {

@@ -6,8 +6,8 @@
 //! falls with the fourth power of the spacing (`tests/window.rs`): 84 wavelengths in the visible
 //! leave 3e-8 of a black body's band; spread over three decades 3e-4, in Wien's part 2e-3.
 
+use super::cubic::catmull_rom;
 use super::log_grid::LogAxis;
-use super::sensor::catmull_rom;
 
 /// Longest piece, in ln λ, that one set of [`gauss`] nodes covers: the integrand is a cubic times
 /// e^(ln λ), whose tenth derivative is all that the rule misses, below 1e-15 there.

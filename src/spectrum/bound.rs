@@ -15,7 +15,7 @@
 //! interpolation in tables over ln D, and rounding to f32.
 
 use super::log_grid::{PHASE_SPACING, Smoothing};
-use super::narrow_bound::NarrowKernel;
+use super::narrow_bound::{F32, NarrowKernel};
 use super::quadrature::Quadrature;
 use super::roughness::{Roughness, nothing_of};
 use super::sensor::Sensor;
@@ -29,9 +29,6 @@ const SAFETY: f64 = 1.1;
 
 /// By how much smoothing may raise variations and derivatives: the sum of its kernel's sizes.
 const SMOOTHED: f64 = 7.0 / 6.0;
-
-/// Rounding of an f32 operation.
-pub(super) const F32: f64 = 6e-8;
 
 /// What a sensor's sums can be off.
 #[derive(Debug, Clone)]

@@ -5,17 +5,7 @@
 //! reflectance stays below 1 is for the caller, who knows that it is one.
 
 use super::SpectrumError;
-use super::sampled::check_points;
-
-/// What a curve does outside of its first and last point.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Beyond {
-    /// Goes on with the end's value.
-    #[default]
-    Hold,
-    /// Is 0.
-    Zero,
-}
+use super::points::{Beyond, check_points};
 
 /// A cardinal cubic spline on knots that need not be equally spaced.
 #[derive(Debug, Clone, PartialEq)]

@@ -3,15 +3,15 @@
 //! Relative power per nm, 1 at 560 nm. The tables go from 300 or 380 to 780 nm in steps of 5 nm, as
 //! published; between them straight lines, beyond them the end's value.
 
+use super::daylight::relative;
 use super::planck::C2;
-use super::tables::{self, Uniform};
-use super::{Beyond, PlanckShape, Sampled, Spectrum};
+
+pub use super::daylight::UNIT_AT_NM;
+use super::{PlanckShape, Spectrum};
+use crate::color::tables;
 
 /// The names that [`illuminant`] knows.
 pub const NAMES: &[&str] = &["A", "C", "D50", "D55", "D65", "D75", "E", "F2", "F7", "F11"];
-
-/// Where every illuminant is 1, nm.
-pub const UNIT_AT_NM: f64 = 560.0;
 
 /// Temperature of illuminant A, K.
 ///
@@ -45,25 +45,10 @@ pub fn illuminant(name: &str) -> Option<Spectrum> {
     Some(Spectrum::Sampled(relative(&table)))
 }
 
-/// D65, daylight of 6504 K: the white of sRGB.
-pub(super) fn d65() -> Sampled {
-    relative(&tables::D65)
-}
-
-/// A table as a curve that is 1 at [`UNIT_AT_NM`].
-fn relative(table: &Uniform) -> Sampled {
-    let unit = table.values[((UNIT_AT_NM - table.start_nm) / table.step_nm) as usize];
-    let point = |(index, value): (usize, &f64)| {
-        (table.start_nm + index as f64 * table.step_nm, value / unit)
-    };
-    let points: Vec<_> = table.values.iter().enumerate().map(point).collect();
-    Sampled::new(&points, Beyond::Hold).expect("the tables ascend and hold no negative value")
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::spectrum::cie;
+    use crate::color::cie;
 
     #[test]
     fn every_illuminant_is_one_at_560_nm_and_holds_its_end() {

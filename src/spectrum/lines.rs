@@ -7,7 +7,7 @@
 //! spacing, s²/8 · max|d²S/dλ²| at the source, and what is narrower than s may be missed; cost
 //! grows as 1/s.
 
-use super::cie::{EFFICACY, xyz_bar};
+use crate::color::cie::{EFFICACY, xyz_bar};
 
 /// First and last wavelength that may have a line, nm.
 pub const LINES_NM: [f64; 2] = [50.0, 5000.0];
@@ -177,7 +177,7 @@ impl Lines {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::spectrum::cie::xyz_of;
+    use crate::color::cie::xyz_of;
 
     #[test]
     fn lines_stand_from_50_to_5000_nm() {

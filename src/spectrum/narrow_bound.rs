@@ -6,7 +6,8 @@
 //! cubic (Catmull–Rom; its kernels are 1.13, h/4 and h²/10), and w and g between rows of tables
 //! over ln D are lines or cubics.
 
-use super::bound::F32;
+/// Rounding of an f32 operation.
+pub(super) const F32: f64 = 6e-8;
 
 /// A channel's weight per unit of ln λ, over the channel of an equal-energy white of value 1.
 #[derive(Debug, Clone, Copy, Default)]

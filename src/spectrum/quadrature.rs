@@ -10,7 +10,7 @@
 //! product of splines and polylines comes out exact but for rounding.
 
 use super::Spectrum;
-use super::cie::{EFFICACY, RANGE_NM, xyz_bar};
+use crate::color::cie::{EFFICACY, RANGE_NM, xyz_bar};
 
 /// Largest error of a channel, over the greatest of the three, unless 16384 halvings are not enough.
 pub const TOLERANCE: f64 = 1e-10;

@@ -1,30 +1,14 @@
-//! A measured curve: straight lines through (nm, value) pairs, from code or from a CSV file.
+//! A measured curve: straight lines through (nm, value) pairs.
 
-mod fault;
-mod heading;
-mod measured;
-mod table;
-mod unit;
-
-use super::{Beyond, SpectrumError};
-
-pub use fault::{NOISE, TableError, TableWarning};
-pub use measured::Measured;
-pub use table::Table;
-pub use unit::Unit;
-
-/// Most rows that a file may have.
-pub const MAX_ROWS: usize = 1_000_000;
-
-/// Greatest value of a point: sums and differences of a few stay finite.
-pub const MAX_VALUE: f64 = 1e300;
+use super::SpectrumError;
+use super::points::{Beyond, check_points};
 
 /// A piecewise linear curve.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Sampled {
-    nm: Vec<f64>,
-    values: Vec<f64>,
-    beyond: Beyond,
+    pub(super) nm: Vec<f64>,
+    pub(super) values: Vec<f64>,
+    pub(super) beyond: Beyond,
 }
 
 impl Sampled {
@@ -66,49 +50,6 @@ impl Sampled {
     /// The curve's greatest value.
     pub fn peak(&self) -> f64 {
         self.values.iter().copied().fold(0.0, f64::max)
-    }
-}
-
-/// That points can carry a curve: some, not too many, ascending, each in range.
-pub(super) fn check_points(points: &[(f64, f64)]) -> Result<(), SpectrumError> {
-    if points.is_empty() {
-        return Err(SpectrumError::NoPoints);
-    }
-    let mut previous = None;
-    for (index, &point) in points.iter().enumerate() {
-        check_next(index, previous, point)?;
-        previous = Some(point);
-    }
-    Ok(())
-}
-
-/// That a point may follow `previous` as number `index`, from 0.
-fn check_next(
-    index: usize,
-    previous: Option<(f64, f64)>,
-    (nm, value): (f64, f64),
-) -> Result<(), SpectrumError> {
-    let point = index + 1;
-    if index >= MAX_ROWS {
-        return Err(SpectrumError::TooMany);
-    }
-    if !nm.is_finite() || nm <= 0.0 {
-        return Err(SpectrumError::Wavelength { point, found: nm });
-    }
-    if !(0.0..=MAX_VALUE).contains(&value) {
-        return Err(SpectrumError::Value {
-            point,
-            nm,
-            found: value,
-        });
-    }
-    match previous {
-        Some((before, _)) if nm <= before => Err(SpectrumError::Order {
-            point,
-            found: nm,
-            before,
-        }),
-        _ => Ok(()),
     }
 }
 

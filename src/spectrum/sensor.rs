@@ -2,8 +2,9 @@
 //! has them, or the totals of three bands.
 
 use super::band;
-use super::cie::{EFFICACY, RANGE_NM, xyz_bar};
+use super::cubic::catmull_rom;
 use super::log_grid::{LANES, LogAxis, Shifted};
+use crate::color::cie::{EFFICACY, RANGE_NM, xyz_bar};
 
 /// Longest steps of the quadrature that makes the weights of XYZ, nm.
 const STEP_NM: f64 = 0.1;
@@ -212,21 +213,10 @@ fn padded(rest: &[f32]) -> [f32; LANES] {
     lanes
 }
 
-/// Weights of the four neighbours of a point a fraction t past the second (Catmull & Rom 1974).
-pub fn catmull_rom(t: f64) -> [f64; 4] {
-    let (t2, t3) = (t * t, t * t * t);
-    [
-        0.5 * (-t3 + 2.0 * t2 - t),
-        0.5 * (3.0 * t3 - 5.0 * t2 + 2.0),
-        0.5 * (-3.0 * t3 + 4.0 * t2 + t),
-        0.5 * (t3 - t2),
-    ]
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::spectrum::cie::{xyz_of, xyz_with_substeps};
+    use crate::color::cie::{xyz_of, xyz_with_substeps};
 
     #[test]
     fn weights_are_not_negative_and_sum_to_the_equal_energy_white() {

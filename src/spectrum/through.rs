@@ -1,9 +1,9 @@
 //! What narrow curves make of smooth ones under a shift of their own: by a few points where the
 //! narrow one is a line or some, else by a table of what each wavelength then counts for.
 
+use super::cubic::catmull_rom;
 use super::fine::{Fine, FineSensor};
 use super::log_grid::{LANES, LogAxis, PHASES};
-use super::sensor::catmull_rom;
 
 /// Nodes between two rows of [`Responses`]: they are an eighth of a spacing apart. A channel is
 /// a smooth function of the shift; lines between rows leave (h/8)²/8 of its second derivative,

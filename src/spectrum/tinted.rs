@@ -3,7 +3,7 @@
 //! What files say by three numbers is light of the white that the numbers are relative to, so
 //! that (1, 1, 1) is D65 itself. Beyond their tables both go on with their ends' values.
 
-use super::illuminant::d65;
+use super::daylight::d65;
 use super::uplift::Uplift;
 use super::{Sampled, SpectrumError};
 
@@ -81,9 +81,9 @@ impl Tinted {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::color::cie::xyz_with_substeps;
+    use crate::color::spaces::{RGB_FROM_XYZ, apply};
     use crate::spectrum::Spectrum;
-    use crate::spectrum::cie::xyz_with_substeps;
-    use crate::spectrum::color_space::{RGB_FROM_XYZ, apply};
 
     /// Linear RGB of a curve, over that of D65's luminance.
     fn color(curve: &Tinted) -> [f64; 3] {

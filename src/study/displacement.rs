@@ -6,9 +6,9 @@
 
 use super::findings::Percentiles;
 use super::spheres::{Sphere, spheres};
-use crate::film::compare::Comparison;
+use crate::image::compare::Comparison;
+use crate::model::Mesh;
 use crate::render::View;
-use crate::scene::Mesh;
 use crate::trace::{BodyHit, Scratch, Seen, ShadeTrees, Tracer};
 use glam::DVec3;
 use rayon::prelude::*;

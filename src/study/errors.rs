@@ -2,11 +2,12 @@
 
 use super::StudyError;
 use super::findings::{Errors, Percentiles};
-use crate::film::compare::{Comparison, delta_e_2000, lab_from_xyz, relative_rmse};
+use crate::color::spaces::{D65_XYZ, XYZ_FROM_RGB, apply};
+use crate::color::{delta_e_2000, lab_from_xyz};
 use crate::film::{Channels, Developed, Film, develop};
+use crate::image::compare::{Comparison, relative_rmse};
 use crate::render::development;
 use crate::shot::Shot;
-use crate::spectrum::color_space::{D65_XYZ, XYZ_FROM_RGB, apply};
 use rayon::prelude::*;
 
 /// Errors of a film against another of the same size, both developed at `stops`.

@@ -22,9 +22,9 @@ mod sweep;
 
 pub use findings::Study;
 
-use crate::film::EncodeError;
-use crate::film::compare::CompareError;
 use crate::frame::{ActiveEffects, Frame};
+use crate::image::EncodeError;
+use crate::image::compare::CompareError;
 use crate::queue::{Names, Prepared};
 use crate::render::Options;
 use crate::scene::Scene;

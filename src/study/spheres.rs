@@ -4,7 +4,8 @@
 //! enough and alike enough that no other body is meant: cubes, cylinders and domes have their
 //! vertices on a sphere too.
 
-use crate::scene::{Geometry, Mesh};
+use crate::model::Mesh;
+use crate::scene::Geometry;
 use glam::{DMat4, DVec3, DVec4, Vec3};
 use indexmap::IndexMap;
 use std::collections::{HashMap, HashSet};

@@ -6,9 +6,9 @@ use super::knobs::Knob;
 use super::rounds::{Measured, measure};
 use super::subject::{Run, Subject, Variant, phase};
 use super::{StudyError, ranking};
+use crate::color::spaces;
 use crate::film::{Channels, Developed, Film, develop};
 use crate::render::development;
-use crate::spectrum::color_space;
 
 /// Measures a knob's settings in rounds; `noise` is the part by which times of equal work differ.
 pub(super) fn sweep(
@@ -102,7 +102,7 @@ fn file_errors(variant: &Variant, run: &Run, subject: &Subject) -> Result<Errors
     };
     let read = image::load_from_memory(bytes)?;
     let linear = if *extension == "png" {
-        let value = |byte: u8| color_space::decode(f64::from(byte) / 255.0) as f32;
+        let value = |byte: u8| spaces::decode(f64::from(byte) / 255.0) as f32;
         read.to_rgb8().pixels().map(|p| p.0.map(value)).collect()
     } else {
         read.to_rgb32f().pixels().map(|p| p.0).collect()
@@ -115,7 +115,7 @@ fn file_errors(variant: &Variant, run: &Run, subject: &Subject) -> Result<Errors
         xyz: developed.linear.clone(),
         ..Film::default()
     };
-    let light = crate::film::compare::relative_rmse(&as_film(&read).xyz, &as_film(&exact).xyz)?;
+    let light = crate::image::compare::relative_rmse(&as_film(&read).xyz, &as_film(&exact).xyz)?;
     Ok(Errors {
         radiance: light,
         delta_e: (film.channels == Channels::Xyz).then(|| color_differences(&read, &exact)),

@@ -120,7 +120,7 @@ fn in_shadow(tracer: &Tracer<'_>, surface: &Place, light: &Light, incoming: &Inc
     let distance = (incoming.distance - nearer).max(0.0);
     tracer.stage.worldlines().any(|worldline| {
         let (origin, seen) = if worldline == surface.worldline {
-            let own = crate::relativity::Light {
+            let own = crate::relativity::SeenLight {
                 direction: incoming.in_surface,
                 frequency_ratio: incoming.doppler,
             };

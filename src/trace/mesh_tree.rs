@@ -5,7 +5,7 @@ use super::bvh::{Bvh, TreeRay};
 use super::real::Real;
 use super::stage::{Approach, Hit, Member};
 use super::triangle::{Crossing, ShearedRay};
-use crate::scene::Mesh;
+use crate::model::Mesh;
 use glam::{DAffine3, DMat3, DVec3};
 use std::sync::Arc;
 

@@ -1,6 +1,6 @@
 //! How the worldlines of one image stand to each other: a transform for each pair, composed once.
 
-use crate::relativity::{Boost, Event, FourVector, Light, Transform, Worldline};
+use crate::relativity::{Boost, Event, FourVector, SeenLight, Transform, Worldline};
 use crate::scene::Scene;
 use glam::DVec3;
 
@@ -36,10 +36,10 @@ impl Link {
 
     /// Light of unit direction of travel `n` in the other frame.
     #[inline(always)]
-    pub fn light(&self, n: DVec3) -> Light {
+    pub fn light(&self, n: DVec3) -> SeenLight {
         match self {
             Self::Finite(transform) => transform.light(n),
-            Self::Snapshot { doppler, .. } => Light {
+            Self::Snapshot { doppler, .. } => SeenLight {
                 direction: n,
                 ..doppler.light_of_unit(n)
             },
@@ -131,7 +131,7 @@ impl Spacetime {
     /// one worldline to the other. Where light takes no time all frames share its direction, and
     /// the one in Doppler's formula is the receiver's, as for the camera.
     #[inline(always)]
-    pub fn received_ratio(&self, source: usize, receiver: usize, seen: &Light) -> f64 {
+    pub fn received_ratio(&self, source: usize, receiver: usize, seen: &SeenLight) -> f64 {
         if self.finite {
             return seen.frequency_ratio;
         }

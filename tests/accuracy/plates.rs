@@ -1,12 +1,13 @@
 //! The plates, small: the same rays shaded exactly and as they are.
 
-use restframe::film::compare::{Comparison, delta_e_2000, lab_from_xyz};
+use restframe::color::spaces::D65_XYZ;
+use restframe::color::{delta_e_2000, lab_from_xyz};
 use restframe::frame::Frame;
+use restframe::image::compare::Comparison;
 use restframe::queue::Prepared;
 use restframe::render::{Options, render};
 use restframe::scene::Scene;
 use restframe::shot::Spectra;
-use restframe::spectrum::color_space::D65_XYZ;
 use restframe::trace::Stage;
 use std::path::Path;
 

@@ -5,13 +5,14 @@
 
 use super::random::Random;
 use rayon::prelude::*;
-use restframe::film::compare::{Comparison, delta_e_2000, lab_from_xyz};
+use restframe::color::cie::xyz_of;
+use restframe::color::spaces::D65_XYZ;
+use restframe::color::{delta_e_2000, lab_from_xyz};
 use restframe::frame::{Frame, Sensor};
+use restframe::image::compare::Comparison;
 use restframe::scene::{Curve, Library, Material, Reflectance, Scene, Thermal};
 use restframe::shade::{Settings, ShadeScratch, Shader};
 use restframe::shot::{self, Accuracy, Preset, Shot, Spectra};
-use restframe::spectrum::cie::xyz_of;
-use restframe::spectrum::color_space::D65_XYZ;
 use restframe::spectrum::{Beyond, Spectrum, planck};
 use restframe::trace::{BodyHit, Lit, Node, Root, Seen, ShadeTrees, Surface};
 use std::sync::Arc;

@@ -1,6 +1,6 @@
 //! The quadrature by itself.
 
-use restframe::spectrum::cie::{EFFICACY, xyz_bar, xyz_with_substeps};
+use restframe::color::cie::{EFFICACY, xyz_bar, xyz_with_substeps};
 use restframe::spectrum::quadrature::cuts_nm;
 use restframe::spectrum::{
     Beyond, Cardinal, PlanckShape, Quadrature, Sampled, Spectrum, Uplift, illuminant, planck,

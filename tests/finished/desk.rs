@@ -1,6 +1,8 @@
 //! A folder with a shot of ten frames, rendered by the command itself, to be tampered with.
 
-use restframe::film::{self, Developed, Layers, Metadata, exr::Depth};
+use restframe::film::{Developed, Layers};
+use restframe::image::Metadata;
+use restframe::image::exr::Depth;
 use restframe::queue::{FileRecord, FrameList, Record, Reel, Request, Seconds};
 use restframe::shot;
 use serde_json::Value;
@@ -186,8 +188,15 @@ impl Desk {
         };
         let (layers, metadata) = (Layers::default(), self.metadata(frame));
         let [width, height] = size;
-        let bytes =
-            film::exr::encode(width, height, &developed, Depth::Float, &layers, &metadata).unwrap();
+        let bytes = restframe::image::exr::encode(
+            width,
+            height,
+            &developed,
+            Depth::Float,
+            &layers,
+            &metadata,
+        )
+        .unwrap();
         fs::write(self.file(&format!("passing.{frame:04}.exr")), bytes).unwrap();
     }
 
@@ -196,7 +205,8 @@ impl Desk {
         let path = self.file(&format!("passing.{frame:04}.png"));
         let (width, height) = picture.dimensions();
         let metadata = self.metadata(frame);
-        let bytes = film::png::encode(width, height, picture.as_raw(), &metadata).unwrap();
+        let bytes =
+            restframe::image::png::encode(width, height, picture.as_raw(), &metadata).unwrap();
         fs::write(path, bytes).unwrap();
     }
 

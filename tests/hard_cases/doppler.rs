@@ -7,7 +7,7 @@ use crate::pictures::{Picture, far_wall, glow};
 use crate::scene::Set;
 use glam::DVec3;
 use restframe::probe::{Probe, ProbeHit};
-use restframe::relativity::{Boost, Celerity, Light, Transform, Worldline};
+use restframe::relativity::{Boost, Celerity, SeenLight, Transform, Worldline};
 use restframe::trace::Spacetime;
 
 const EPSILON: f64 = f64::EPSILON;
@@ -21,7 +21,7 @@ fn of_gamma(lorentz_factor: f64, direction: DVec3) -> Celerity {
 }
 
 /// Light of direction `n` in the lab as a body of celerity `u` sees it.
-fn seen(u: Celerity, n: DVec3) -> Light {
+fn seen(u: Celerity, n: DVec3) -> SeenLight {
     Boost::into_rest_of(u).light(n)
 }
 

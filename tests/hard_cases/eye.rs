@@ -4,9 +4,10 @@
 use crate::scene::Set;
 use glam::DVec3;
 use restframe::frame::Frame;
+use restframe::model::Mesh;
 use restframe::probe::{Probe, probe};
 use restframe::render::View;
-use restframe::scene::{Mesh, Scene};
+use restframe::scene::Scene;
 use restframe::trace::{BodyHit, Root, Scratch, Seen, ShadeTrees, Stage};
 
 /// A frame of a set, ready for rays.

@@ -1,8 +1,8 @@
 //! E. Lamps and glowing surfaces of model files: how bright they are, and of which white.
 
 use crate::scene::Set;
+use restframe::color::spaces::{RGB_FROM_XYZ, XYZ_FROM_RGB, apply};
 use restframe::probe::Probe;
-use restframe::spectrum::color_space::{RGB_FROM_XYZ, XYZ_FROM_RGB, apply};
 use std::f64::consts::PI;
 
 /// What the white of D65's table differs by from that of Rec. 709, rounded to four digits, and

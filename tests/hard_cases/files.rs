@@ -1,8 +1,9 @@
 //! A film's picture files, and what the readers of other people find in them.
 
 use exr::prelude::{ReadChannels, ReadLayers};
-use restframe::film::{Development, Film, Metadata, develop, exr as exr_file, png as png_file};
-use restframe::spectrum::color_space::{RGB_FROM_XYZ, encode};
+use restframe::color::spaces::{RGB_FROM_XYZ, encode};
+use restframe::film::{Development, Film, develop};
+use restframe::image::{Metadata, exr as exr_file, png as png_file};
 use std::io::Cursor;
 
 /// What became of a film at 0 stops.
@@ -34,7 +35,7 @@ impl Files {
         let none = Metadata::default();
         let float = exr_file::Depth::Float;
         let exr = exr_file::encode(width, height, &developed, float, &film.layers, &none).unwrap();
-        let rgb8 = png_file::to_rgb8(&developed, encode);
+        let rgb8 = restframe::film::to_rgb8(&developed, encode);
         let png = png_file::encode(width, height, &rgb8, &none).unwrap();
         Self {
             channels: channels(&exr),

@@ -1,7 +1,7 @@
 //! C. Lines and filters narrower than the sensor's wavelengths are apart.
 
 use crate::scene::Set;
-use restframe::spectrum::cie::{EFFICACY, xyz_bar};
+use restframe::color::cie::{EFFICACY, xyz_bar};
 use restframe::spectrum::illuminant;
 use std::f64::consts::PI;
 

@@ -6,11 +6,12 @@ use crate::scene::Set;
 use crate::swept::{GLARE, INSIDE, SCENES};
 use rayon::ThreadPoolBuilder;
 use rayon::prelude::*;
+use restframe::color::cie;
 use restframe::film::Film;
 use restframe::frame::Frame;
 use restframe::render::View;
 use restframe::shade::ShadeScratch;
-use restframe::spectrum::{Spectrum, cie, planck};
+use restframe::spectrum::{Spectrum, planck};
 use restframe::trace::{Samples, Scratch, ShadeTrees, Stage};
 
 /// G4's Lorentz factors, as they are written in a shot.

@@ -4,7 +4,8 @@
 #![cfg(target_arch = "x86_64")]
 
 use super::desk::Desk;
-use restframe::film::{develop, png::to_rgb8};
+use restframe::film::develop;
+use restframe::film::to_rgb8;
 use restframe::frame::{EPOCH, Frame};
 use restframe::render::{Options, development, render};
 use restframe::scene::{Library, Scene};
@@ -130,6 +131,6 @@ fn pixels_change_only_with_the_epoch() {
     assert_eq!(
         found, PIXELS,
         "the same shots give other pixels than before. If that is meant, raise EPOCH in \
-         src/plan/key.rs, so that finished frames are rendered anew, and write these hashes here"
+         src/frame/fingerprint/fingerprints.rs, so that finished frames are rendered anew, and write these hashes here"
     );
 }

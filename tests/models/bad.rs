@@ -1,7 +1,7 @@
 //! Broken and hostile model files: refused by a message that names the fault, never by a panic.
 
 use super::blender::here;
-use restframe::scene::model::{ModelError, load};
+use restframe::model::{ModelError, load};
 use restframe::shot::FileError;
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};

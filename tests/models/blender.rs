@@ -1,7 +1,7 @@
 //! Geometry, lamps and materials as Blender itself counts them.
 
 use glam::{DMat3, DVec3};
-use restframe::scene::model::{LampKind, Model, Warning, load};
+use restframe::model::{LampKind, Model, Warning, load};
 use serde_json::Value;
 use std::collections::HashMap;
 use std::f64::consts::FRAC_PI_6;

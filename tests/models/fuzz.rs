@@ -4,7 +4,7 @@ use super::bad::{triangle, with_buffer, write};
 use super::blender::here;
 use super::shapes::floats;
 use proptest::prelude::*;
-use restframe::scene::model::load;
+use restframe::model::load;
 use serde_json::json;
 
 /// Overwrites, deletes or repeats bytes.

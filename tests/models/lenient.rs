@@ -4,7 +4,7 @@
 use super::bad::{data, refusal, triangle, with_buffer, write};
 use super::shapes::{floats, read};
 use glam::{DQuat, DVec3};
-use restframe::scene::model::{Model, Warning, load};
+use restframe::model::{Model, Warning, load};
 use serde_json::{Value, json};
 
 /// The triangle after `change`.

@@ -2,8 +2,8 @@
 
 use super::bad::{triangle, write};
 use restframe::frame::Frame;
+use restframe::model::Warning;
 use restframe::queue::Prepared;
-use restframe::scene::model::Warning;
 use restframe::scene::{Material, Scene};
 use restframe::shot::Mistakes;
 use serde_json::{Value, json};

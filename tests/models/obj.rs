@@ -2,7 +2,7 @@
 //! nowhere. What is right is told by the square that every file holds.
 
 use super::bad::write;
-use restframe::scene::model::{Model, load};
+use restframe::model::{Model, load};
 use std::path::Path;
 
 /// Corners of a square of area 4 whose normal is +z.

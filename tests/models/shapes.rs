@@ -3,7 +3,7 @@
 
 use super::bad::{refusal, triangle, with_buffer, write};
 use glam::DVec3;
-use restframe::scene::model::{Model, Warning, load};
+use restframe::model::{Model, Warning, load};
 use serde_json::{Value, json};
 
 pub(crate) fn read(gltf: &Value) -> Model {

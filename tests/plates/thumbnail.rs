@@ -1,12 +1,13 @@
 //! A plate small: its pixels as displayed, and what their centres see.
 
-use restframe::film::{Development, Film, develop, png};
+use restframe::color::spaces::{RGB_FROM_XYZ, encode};
+use restframe::film::to_rgb8;
+use restframe::film::{Development, Film, develop};
 use restframe::frame::Frame;
 use restframe::probe::{Probe, probe};
 use restframe::queue::Prepared;
 use restframe::render::{Options, View, render};
 use restframe::scene::Scene;
-use restframe::spectrum::color_space::{RGB_FROM_XYZ, encode};
 use restframe::trace::Stage;
 use std::path::Path;
 
@@ -85,7 +86,7 @@ impl Thumbnail {
             exposure_stops: exposure,
             encode,
         };
-        let rgb8 = png::to_rgb8(&develop(&film, &development), encode);
+        let rgb8 = to_rgb8(&develop(&film, &development), encode);
         let scene = Scene::resolve(&values, &prepared.library, None).unwrap();
         let stage = Stage::build(&scene.geometry, None);
         let (mut probes, mut directions) = (Vec::new(), Vec::new());

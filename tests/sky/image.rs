@@ -1,12 +1,13 @@
 //! Images: where their pixels are, and that an unshifted one shows its own colours.
 
 use super::{Folder, looking, off};
-use restframe::spectrum::color_space::decode;
-use restframe::spectrum::{cie, illuminant};
+use restframe::color::spaces::decode;
+use restframe::spectrum::illuminant;
+use restframe::spectrum::luminous_integral;
 
 /// `scale` under which a white pixel is 1 at exposure 0.
 fn unit_scale() -> f64 {
-    100.0 / cie::luminous_integral(&illuminant("D65").unwrap())
+    100.0 / luminous_integral(&illuminant("D65").unwrap())
 }
 
 /// White ahead, red to the right, blue behind, yellow to the left, green above, magenta below.

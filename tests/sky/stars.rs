@@ -1,8 +1,9 @@
 //! Stars: how bright they are, where motion puts them, what colour it gives them.
 
 use super::{Folder, looking, moving, off};
+use restframe::color::cie;
 use restframe::film::Film;
-use restframe::spectrum::{cie, planck};
+use restframe::spectrum::planck;
 
 /// Illuminance (lx) of what a square image of 1° shows, on a surface that faces it, and the solid
 /// angle of what shines.

@@ -1,7 +1,7 @@
 //! Catalogues of stars, as tables in text.
 
 use crate::shot::{MOST_STARS, STAR_KELVIN, STAR_MAGNITUDE};
-use crate::spectrum::sampled::Table;
+use crate::spectrum::csv::Table;
 use glam::DVec3;
 
 /// A star as a catalogue has it.

@@ -6,7 +6,7 @@
 //! any other. Pixels of the display window that the data window leaves out are black.
 //! Source: Technical Introduction to OpenEXR and OpenEXR File Layout, openexr.com.
 
-use super::decode::{Pixels, SkyImageError, check_memory, check_size};
+use super::file::{Pixels, SkyImageError, check_memory, check_size};
 use super::{SkyWarning, primaries::Primaries};
 use ::exr::block::reader::ChunksReader;
 use ::exr::block::{self, UncompressedBlock};

@@ -1,7 +1,7 @@
 //! From the colors that a file says it has to linear Rec. 709.
 
 use super::SkyWarning;
-use crate::spectrum::color_space::{
+use crate::color::spaces::{
     D65_XY, Matrix, PRIMARIES_XY, RGB_FROM_XYZ, XYZ_FROM_RGB, apply, d65_from_white, product,
     xyz_from_primaries,
 };

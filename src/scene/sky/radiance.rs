@@ -6,7 +6,7 @@
 //! PRIMARIES says otherwise, as everybody but Radiance itself writes them; XYZE is CIE XYZ.
 //! Source: Ward, Radiance File Formats (radsite.lbl.gov, filefmts.pdf), Picture File Format.
 
-use super::decode::{Pixels, SkyImageError, check_size};
+use super::file::{Pixels, SkyImageError, check_size};
 use super::primaries::Primaries;
 
 /// Most bytes of a line of the header.

@@ -5,8 +5,9 @@
 //! it, is that of its visual magnitude, whatever its size and temperature.
 
 use super::catalogue::Star;
+use crate::color::cie;
 use crate::shot::STAR_KELVIN;
-use crate::spectrum::{catmull_rom, cie, planck};
+use crate::spectrum::{catmull_rom, planck};
 use glam::DVec3;
 use std::f64::consts::PI;
 use std::sync::LazyLock;

@@ -4,7 +4,7 @@
 //! room; what is written beside it is text of the page, which keeps its size.
 
 use super::view::View;
-use crate::film::plot::quantity::{number, time, unit_of_time};
+use crate::plot::quantity::{number, time, unit_of_time};
 use crate::queue::Seconds;
 use maud::{Markup, html};
 

@@ -2,8 +2,8 @@
 
 use super::super::output::OUTPUTS;
 use super::view::{Contents, Entry, View, beside, span};
-use crate::film::plot::STYLE;
-use crate::film::plot::quantity::{bytes, time};
+use crate::plot::STYLE;
+use crate::plot::quantity::{bytes, time};
 use crate::queue::{Record, Reel};
 use crate::sequence::gaps::{Run, count};
 use indexmap::IndexMap;

@@ -2,8 +2,8 @@
 
 use super::chart::PHASES;
 use super::view::{Contents, Entry, View, beside, span};
-use crate::film::plot::quantity::{NOTHING, bytes, number, time};
 use crate::frame::Caption;
+use crate::plot::quantity::{NOTHING, bytes, number, time};
 use crate::queue::Record;
 use crate::relativity::Celerity;
 use maud::{Markup, html};

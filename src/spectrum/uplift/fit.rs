@@ -1,7 +1,7 @@
 //! The fit of a colour's curve: coefficients by the method of Levenberg and Marquardt.
 
-use super::{WEIGHTS, quadratic, sigmoid};
-use crate::spectrum::color_space::{Matrix, apply, inverse};
+use super::sigmoid::{WEIGHTS, quadratic, sigmoid};
+use crate::color::spaces::{Matrix, apply, inverse};
 
 /// Greatest weighted error at which a fit is done.
 const GOOD_ENOUGH: f64 = 1e-10;

@@ -11,9 +11,10 @@
 //! Coefficients come from a table over hues, cubic between its entries, made when first asked for
 //! (0.2 s on one core). Each entry is fitted by itself: the same on any number of threads.
 
-use super::{HALF_NM, MIDDLE_NM, fit::fit, quadratic, sigmoid, variable};
-use crate::spectrum::cie::RANGE_NM;
-use crate::spectrum::sensor::catmull_rom;
+use super::fit::fit;
+use super::sigmoid::{HALF_NM, MIDDLE_NM, quadratic, sigmoid, variable};
+use crate::color::cie::RANGE_NM;
+use crate::spectrum::cubic::catmull_rom;
 use rayon::prelude::*;
 use std::sync::LazyLock;
 
@@ -138,7 +139,7 @@ fn cubic(below: usize, taps: [f32; 4], entry: impl Fn(usize) -> [f32; 3]) -> [f3
 
 #[cfg(test)]
 mod tests {
-    use super::super::WEIGHTS;
+    use super::super::sigmoid::WEIGHTS;
     use super::*;
     use crate::spectrum::Uplift;
     use proptest::prelude::*;

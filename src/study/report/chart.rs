@@ -3,7 +3,7 @@
 
 use super::measure::{Error, Measure};
 use super::quantity::{number, time, unit_of_time};
-use crate::film::plot::{Axis, Color, Page, Panel, Plot, Remark, Series, Stroke, lay_out, svg};
+use crate::plot::{Axis, Color, Page, Panel, Plot, Remark, Series, Stroke, lay_out, svg};
 use crate::study::findings::{Point, Sweep};
 
 /// A chart, and what should be said below it.

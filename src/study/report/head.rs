@@ -1,6 +1,6 @@
 //! What stands above and below the findings: what was studied, on what, and how to read it.
 
-use crate::film::plot::STYLE;
+use crate::plot::STYLE;
 use crate::study::findings::Study;
 use crate::study::report::quantity::{number, percent, times};
 use maud::{Markup, PreEscaped, html};

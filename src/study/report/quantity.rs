@@ -1,6 +1,6 @@
 //! Quantities of a study as people read them.
 
-pub(super) use crate::film::plot::quantity::*;
+pub(super) use crate::plot::quantity::*;
 use crate::study::findings::Timing;
 
 /// The range of equal renders in the unit of their median, such as 4.0–4.3; None where there was

@@ -1,0 +1,53 @@
+//! A file of a frame, opened and read to no more than such a frame can need.
+
+use super::fault::{Fault, pixels};
+use std::fs::{self, File};
+use std::io::{self, Read};
+use std::path::Path;
+
+/// What a file may have beside its pixels, bytes: the shot's text is at most 4 MiB of it.
+pub(in crate::image) const MOST_METADATA: u64 = 16 << 20;
+
+/// Channels at most: three colours and four layers.
+pub(super) const MOST_CHANNELS: usize = 7;
+
+/// Bytes a pixel at most: channels of 32 bits, and as much again for what does not compress.
+const MOST_PIXEL: u64 = 2 * 4 * MOST_CHANNELS as u64;
+
+/// Opens a regular file to be read, whoever put it there: a pipe would wait for a writer for ever,
+/// and a device never end.
+///
+/// # Errors
+/// Of the system, and what is no regular file.
+pub fn open(path: &Path) -> io::Result<File> {
+    if !fs::metadata(path)?.is_file() {
+        let why = "it is no regular file; move it away";
+        return Err(io::Error::new(io::ErrorKind::InvalidInput, why));
+    }
+    File::open(path)
+}
+
+/// The bytes of a file, unless it has more than an image of this size can need.
+///
+/// # Errors
+/// A file that is missing, empty, too long or cannot be read.
+pub fn read_bytes(path: &Path, size: [u32; 2]) -> Result<Vec<u8>, Fault> {
+    let most = u64::from(size[0]) * u64::from(size[1]) * MOST_PIXEL + MOST_METADATA;
+    let unreadable = |error: io::Error| match error.kind() {
+        io::ErrorKind::NotFound => Fault::Missing,
+        _ => Fault::Unreadable(error.to_string()),
+    };
+    let file = open(path).map_err(unreadable)?;
+    let mut bytes = Vec::new();
+    file.take(most + 1)
+        .read_to_end(&mut bytes)
+        .map_err(unreadable)?;
+    match bytes.len() as u64 {
+        0 => Err(Fault::Empty),
+        length if length > most => Err(Fault::Damaged(format!(
+            "it has more than {most} bytes, and no {} can need so many",
+            pixels(size.map(|side| side as usize))
+        ))),
+        _ => Ok(bytes),
+    }
+}
