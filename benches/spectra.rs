@@ -6,7 +6,7 @@ mod shell;
 use divan::{Bencher, black_box};
 use restframe::frame::{Frame, Sensor};
 use restframe::shade::{Settings, ShadeScratch, Shader};
-use restframe::trace::{BodyHit, Lit, Node, Root, Seen, ShadeTrees, Surface};
+use restframe::trace::{BodyHit, DirectLight, Node, Root, Seen, ShadeTrees, Surface};
 use shell::shell;
 
 fn main() {
@@ -70,16 +70,16 @@ fn shade(bencher: Bencher<'_, '_>, effects: &str, accuracy: &str, lamp_doppler: 
         count: 1,
         cut: 0.0,
     };
-    let lit = Lit {
+    let lit = DirectLight {
         light: 0,
+        first_weight: 0,
         doppler: lamp_doppler,
-        diffuse: 0.1,
-        highlight: 0.01,
     };
     let trees = ShadeTrees {
         roots: vec![root],
         nodes: vec![node],
-        lit: vec![lit],
+        direct: vec![lit],
+        weights: vec![0.1, 0.01],
     };
     let mut scratch = ShadeScratch::default();
     bencher.bench_local(|| shader.xyz(black_box(&trees), root, &mut scratch));

@@ -15,7 +15,7 @@ use restframe::shade::{Settings, ShadeScratch, Shader};
 use restframe::shot::{self, Beaming, SensorColor, Shot, Spectra, Switch};
 use restframe::spectrum::planck;
 use restframe::spectrum::uplift::HUE_ERROR;
-use restframe::trace::{BodyHit, Branch, Lit, Node, Root, Seen, ShadeTrees, Surface, Term};
+use restframe::trace::{BodyHit, Branch, DirectLight, Node, Root, Seen, ShadeTrees, Surface};
 use std::path::Path;
 use std::sync::Arc;
 
@@ -153,11 +153,11 @@ enum End {
 
 /// A tree of `end` under D = `doppler`, with each of the lamps under its own D.
 fn direct(scene: &Scene, end: End, doppler: f64, lamps: &[(u32, f64)]) -> ShadeTrees {
-    let lit = |&(light, doppler): &(u32, f64)| Lit {
+    let lit = |&(light, doppler): &(u32, f64)| DirectLight {
         light,
+        // Of the diffuse lobe and the highlight.
+        first_weight: 0,
         doppler,
-        diffuse: 0.1,
-        highlight: 0.03,
     };
     let node = Node {
         branch: None,
@@ -167,16 +167,18 @@ fn direct(scene: &Scene, end: End, doppler: f64, lamps: &[(u32, f64)]) -> ShadeT
     ShadeTrees {
         roots: vec![root(1)],
         nodes: vec![node],
-        lit: lamps.iter().map(lit).collect(),
+        direct: lamps.iter().map(lit).collect(),
+        weights: vec![0.1, 0.03],
     }
 }
 
 /// The same seen in a mirror under D = `by`, no lamp on it.
 fn mirrored(mut trees: ShadeTrees, scene: &Scene, mirror: &'static str, by: f64) -> ShadeTrees {
     let mut end = trees.nodes.remove(0);
+    let material = scene.materials.iter().find(|m| m.name == mirror).unwrap();
     end.branch = Some(Branch {
         parent: 0,
-        term: Term::Mirror,
+        lobe: material.bsdf.mirror().unwrap().0 as u32,
         share: 0.9,
         doppler: end.doppler / by,
     });

@@ -8,11 +8,13 @@
 
 use restframe::color::cie::{EFFICACY, xyz_bar};
 use restframe::frame::{Frame, Sensor};
-use restframe::scene::{Curve, Library, Material, Reflectance, Scene, Thermal};
+use restframe::scene::{
+    Bsdf, Curve, Library, Lobe, LobeKind, Material, Reflectance, Scene, Thermal,
+};
 use restframe::shade::{Settings, ShadeScratch, Shader};
 use restframe::shot::{self, Accuracy, Shot, Spectra};
 use restframe::spectrum::{Beyond, Cardinal, Sampled, Spectrum, illuminant};
-use restframe::trace::{BodyHit, Branch, Lit, Node, Root, Seen, ShadeTrees, Surface, Term};
+use restframe::trace::{BodyHit, Branch, DirectLight, Node, Root, Seen, ShadeTrees, Surface};
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
@@ -83,9 +85,8 @@ impl Light {
     }
 
     fn diffuse(self, spectrum: Spectrum) -> Self {
-        let diffuse = Some(full(spectrum));
         let surface = Material {
-            diffuse,
+            bsdf: lobe(LobeKind::Diffuse, full(spectrum)),
             ..self.surface
         };
         Self { surface, ..self }
@@ -121,6 +122,10 @@ impl Light {
             ..self
         }
     }
+}
+
+fn lobe(kind: LobeKind, reflectance: Reflectance) -> Bsdf {
+    Bsdf::new(vec![Lobe { kind, reflectance }])
 }
 
 fn full(spectrum: Spectrum) -> Reflectance {
@@ -160,13 +165,13 @@ impl Wall {
             ..surface.clone()
         };
         self.scene.materials[one] = named(&light.surface, "one");
-        let mirror = light.mirror.clone().map(|spectrum| Reflectance {
-            weight: 1.0,
-            spectrum,
+        let mirror = light.mirror.clone().map(|spectrum| {
+            let weight = 1.0;
+            lobe(LobeKind::Mirror, Reflectance { weight, spectrum })
         });
         self.scene.materials[two] = named(
             &Material {
-                mirror,
+                bsdf: mirror.unwrap_or_default(),
                 ..Material::default()
             },
             "two",
@@ -204,22 +209,21 @@ impl Wall {
                 first_lamp: 0,
             })
         };
-        let lit = light.lamp.iter().map(|_| Lit {
+        let lit = light.lamp.iter().map(|_| DirectLight {
             light: 0,
+            first_weight: 0,
             doppler: light.lamp_doppler,
-            diffuse: 0.3,
-            highlight: 0.0,
         });
-        let lit: Vec<Lit> = lit.collect();
+        let direct: Vec<DirectLight> = lit.collect();
         let mut nodes = vec![Node {
             branch: None,
             doppler: light.doppler,
-            seen: surface("one", lit.len() as u32),
+            seen: surface("one", direct.len() as u32),
         }];
         if light.mirror.is_some() {
             nodes[0].branch = Some(Branch {
                 parent: 0,
-                term: Term::Mirror,
+                lobe: 0,
                 share: 0.9,
                 doppler: light.doppler / light.mirror_doppler,
             });
@@ -239,7 +243,8 @@ impl Wall {
                 cut: 0.0,
             }],
             nodes,
-            lit,
+            direct,
+            weights: vec![0.3],
         }
     }
 

@@ -9,7 +9,7 @@ use restframe::frame::{Frame, Sensor};
 use restframe::scene::{Library, Scene};
 use restframe::shade::{Settings, ShadeScratch, Shader};
 use restframe::shot::{self, SensorColor, Shot, Spectra};
-use restframe::trace::{BodyHit, Lit, Node, Root, Seen, ShadeTrees, Surface};
+use restframe::trace::{BodyHit, DirectLight, Node, Root, Seen, ShadeTrees, Surface};
 use std::path::Path;
 
 /// One material of every kind, three lamps; the wall moves, so every effect is called for.
@@ -107,11 +107,10 @@ fn worst(shot: &Shot, scene: &Scene) -> f64 {
 }
 
 fn trees(doppler: f64, lamp_doppler: f64) -> ShadeTrees {
-    let lit = |light, share| Lit {
+    let lit = |light| DirectLight {
         light,
         doppler: lamp_doppler,
-        diffuse: share,
-        highlight: 0.3,
+        first_weight: 2 * light,
     };
     let hit = BodyHit {
         t: 1.0,
@@ -144,7 +143,9 @@ fn trees(doppler: f64, lamp_doppler: f64) -> ShadeTrees {
             node(Seen::Surface(surface)),
             node(Seen::Sky(glam::DVec3::NEG_Z)),
         ],
-        lit: vec![lit(0, 0.1), lit(1, 0.2), lit(2, 0.05)],
+        direct: vec![lit(0), lit(1), lit(2)],
+        // Of the diffuse lobe and the highlight, for each lamp.
+        weights: vec![0.1, 0.3, 0.2, 0.3, 0.05, 0.3],
     }
 }
 

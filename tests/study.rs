@@ -8,7 +8,7 @@ use restframe::queue::Prepared;
 use restframe::render::{Options, render};
 use restframe::scene::Scene;
 use restframe::shot::{Accuracy, Spectra};
-use restframe::study::findings::{Point, Sweep};
+use restframe::study::results::{Point, Sweep};
 use restframe::study::{Request, Study, study};
 use restframe::trace::Stage;
 use std::path::{Path, PathBuf};

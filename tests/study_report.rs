@@ -10,8 +10,8 @@ mod fixture;
 
 use fixture::{AWKWARD, noisy, study};
 use restframe::study::Study;
-use restframe::study::findings::Sweep;
 use restframe::study::report::{csv, html, json};
+use restframe::study::results::Sweep;
 use roxmltree::{Document, Node, ParsingOptions};
 use serde_json::Value;
 use std::fs;
@@ -187,7 +187,7 @@ fn dots_stand_to_the_right_for_time_and_higher_for_error_by_logarithms() {
     assert_eq!(joined("exact"), None);
     // The reference has no error and stands lowest, and the caption says so.
     assert!(at("exact")[1] > at("spline, 336")[1]);
-    assert!(words(section(&page, "sweep-1")).contains("On the floor of the chart"));
+    assert!(words(section(&page, "sweep-1")).contains("Points at the lower edge of the chart"));
 }
 
 #[test]
@@ -263,7 +263,7 @@ fn numbers_that_are_none_do_not_reach_a_drawing() {
         broken.contains("∞") && broken.contains("no number"),
         "{broken}"
     );
-    assert!(broken.contains("At its ceiling"), "{broken}");
+    assert!(broken.contains("Points at its upper edge"), "{broken}");
     for word in ["NaN", "inf ", "infs"] {
         assert!(!text.contains(word), "{word}");
     }

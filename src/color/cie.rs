@@ -1,8 +1,8 @@
-//! The CIE 1931 2° color-matching functions and what is added up with them.
+//! The CIE 1931 2° color-matching functions, and integrals with them.
 //!
-//! Wavelengths in nm. Radiance in W·m⁻²·sr⁻¹·nm⁻¹ gives XYZ of which Y is the luminance in cd/m²;
-//! power in W/nm gives lumen, and so on: integrals carry the factor [`EFFICACY`]. Tables: CIE
-//! 015:2018, Colorimetry, at 1 nm.
+//! Wavelengths in nm. Radiance in W·m⁻²·sr⁻¹·nm⁻¹ gives XYZ with Y the luminance in cd/m²; power in
+//! W/nm gives lumens, and so on: integrals include the factor [`EFFICACY`]. Tables: CIE 015:2018,
+//! Colorimetry, at 1 nm.
 
 use super::tables::XYZ_BAR;
 
@@ -12,7 +12,7 @@ pub const EFFICACY: f64 = 683.0;
 /// First and last wavelength of the table, nm.
 pub const RANGE_NM: [f64; 2] = [360.0, 830.0];
 
-/// x̄, ȳ, z̄ at a wavelength: linear between whole nm, 0 outside of 360 to 830 nm.
+/// x̄, ȳ, z̄ at a wavelength: linear between whole nm, 0 outside 360 to 830 nm.
 pub fn xyz_bar(lambda_nm: f64) -> [f64; 3] {
     if !(RANGE_NM[0]..=RANGE_NM[1]).contains(&lambda_nm) {
         return [0.0; 3];
@@ -24,9 +24,9 @@ pub fn xyz_bar(lambda_nm: f64) -> [f64; 3] {
     std::array::from_fn(|i| low[i] * (1.0 - part) + high[i] * part)
 }
 
-/// XYZ of a curve: 683 ∫ (x̄, ȳ, z̄) f dλ by the trapezoidal rule at 1 nm, the CIE's own recipe.
+/// XYZ of a curve: 683 ∫ (x̄, ȳ, z̄) f dλ by the trapezoidal rule at 1 nm, as the CIE prescribes.
 ///
-/// For a curve with features narrower than some nm see [`xyz_with_substeps`].
+/// For a curve with features narrower than a few nm use [`xyz_with_substeps`].
 pub fn xyz_of(curve: impl Fn(f64) -> f64) -> [f64; 3] {
     xyz_with_substeps(curve, 1)
 }

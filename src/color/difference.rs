@@ -1,16 +1,17 @@
-//! CIEDE2000: how different two colours look.
+//! CIEDE2000: the perceived difference of two colors.
 //!
 //! G. Sharma, W. Wu, E. N. Dalal, "The CIEDE2000 color-difference formula: implementation notes,
 //! supplementary test data, and mathematical observations", Color Res. Appl. 30 (2005) 21–30;
 //! equation numbers are theirs. CIELAB: CIE 15:2004, 8.2.1. Angles are in degrees here.
 
-/// A colour in CIELAB: L* (0 black to 100 white), a*, b*.
+/// A color in CIELAB: L* (0 black to 100 white), a*, b*.
 pub type Lab = [f64; 3];
 
-/// Angles apart by 180° within this are taken as apart by just that, whatever rounding did.
+/// Hue angles whose difference is within this of 180° count as exactly opposite, whatever rounding
+/// did.
 const OPPOSITE_TOLERANCE_DEG: f64 = 1e-9;
 
-/// CIELAB from tristimulus values, `white` being those of the reference white in the same unit (CIE 15:2004).
+/// CIELAB from tristimulus values. `white` is the reference white in the same unit (CIE 15:2004).
 pub fn lab_from_xyz(xyz: [f64; 3], white: [f64; 3]) -> Lab {
     const DELTA: f64 = 6.0 / 29.0;
     let response = |index: usize| {
@@ -25,8 +26,8 @@ pub fn lab_from_xyz(xyz: [f64; 3], white: [f64; 3]) -> Lab {
     [116.0 * fy - 16.0, 500.0 * (fx - fy), 200.0 * (fy - fz)]
 }
 
-/// The colour difference ΔE₀₀ with k_L = k_C = k_H = 1 (eq. 22). 1 is about what the eye can
-/// just tell; meant for differences up to about 5, only roughly monotonic beyond.
+/// The color difference ΔE₀₀ with k_L = k_C = k_H = 1 (eq. 22). 1 is just visible; meant for
+/// differences up to about 5, only roughly monotonic beyond.
 pub fn delta_e_2000(a: Lab, b: Lab) -> f64 {
     let mean_chroma = (a[1].hypot(a[2]) + b[1].hypot(b[2])) / 2.0;
     let stretch = 1.5 - 0.5 * chroma_weight(mean_chroma); // 1 + G, eq. 4–5
@@ -81,7 +82,7 @@ fn polar(a: f64, b: f64) -> (f64, f64) {
     (a.hypot(b), if hue < 0.0 { hue + 360.0 } else { hue })
 }
 
-/// From `a` to `b` the short way round, −180 to 180 (eq. 10).
+/// Hue difference from `a` to `b` the short way round, −180 to 180 (eq. 10).
 fn hue_difference(a: f64, b: f64) -> f64 {
     let direct = b - a;
     if direct.abs() <= 180.0 + OPPOSITE_TOLERANCE_DEG {
@@ -91,7 +92,7 @@ fn hue_difference(a: f64, b: f64) -> f64 {
     }
 }
 
-/// Halfway between on the short side (eq. 14).
+/// Mean of two hues, on the short side (eq. 14).
 fn mean_hue(a: f64, b: f64) -> f64 {
     let sum = a + b;
     if (a - b).abs() <= 180.0 + OPPOSITE_TOLERANCE_DEG {

@@ -1,7 +1,7 @@
-//! Color: the CIE's tables, color spaces, and differences of colors.
+//! Color: tables of the CIE, color spaces, and color differences.
 //!
-//! In and out: plain numbers; wavelengths in nm, XYZ of whatever unit its caller scales it to. A leaf: imports
-//! nothing of ours. Curves and what integrates them over these tables are in
+//! In and out: plain numbers; wavelengths in nm, XYZ in any unit that the caller chooses. The room
+//! imports no other. Curves, and integrals of curves over these tables, are in
 //! [`spectrum`](crate::spectrum).
 
 pub mod cie;

@@ -1,6 +1,7 @@
-//! Color spaces: CIE XYZ, linear Rec. 709, its sRGB transfer, CIE L*a*b*.
+//! Color spaces: CIE XYZ, linear Rec. 709, the sRGB transfer, CIE L*a*b*.
 //!
-//! RGB is linear, (1, 1, 1) the D65 white of Y = 1. Matrices act on columns: `RGB_FROM_XYZ · xyz`.
+//! RGB is linear, with (1, 1, 1) the D65 white of Y = 1. Matrices act on columns: `RGB_FROM_XYZ ·
+//! xyz`.
 
 /// A matrix by rows.
 pub type Matrix = [[f64; 3]; 3];
@@ -20,7 +21,7 @@ pub const XYZ_FROM_RGB: Matrix = xyz_from_primaries(PRIMARIES_XY, D65_XY);
 /// Linear Rec. 709 RGB of XYZ.
 pub const RGB_FROM_XYZ: Matrix = inverse(XYZ_FROM_RGB);
 
-/// XYZ from which von Kries' rule scales cones' responses (Lam 1985, in Lindbloom, Chromatic
+/// Cone responses from XYZ, to be scaled by von Kries' rule (Lam 1985, in Lindbloom, Chromatic
 /// Adaptation: the Bradford matrix).
 const BRADFORD: Matrix = [
     [0.8951, 0.2664, -0.1614],
@@ -28,7 +29,7 @@ const BRADFORD: Matrix = [
     [0.0389, -0.0685, 1.0296],
 ];
 
-/// XYZ of a chromaticity: at Y = 1, or at X + Y + Z = 1 where y is 0.
+/// XYZ of a chromaticity, at Y = 1, or at X + Y + Z = 1 if y is 0.
 const fn xyz_from_xy([x, y]: [f64; 2]) -> [f64; 3] {
     if y == 0.0 {
         [x, 0.0, 1.0 - x]
@@ -37,9 +38,9 @@ const fn xyz_from_xy([x, y]: [f64; 2]) -> [f64; 3] {
     }
 }
 
-/// XYZ of the RGB of these primaries and this white (x, y of each): the primaries' XYZ as columns,
-/// each scaled so that together they make the white at Y = 1 (SMPTE RP 177-1993). Not finite where
-/// the primaries lie on one line, or the white's y is 0.
+/// XYZ of the RGB with these primaries and this white (x, y of each): the primaries' XYZ as
+/// columns, each scaled so that together they make the white at Y = 1 (SMPTE RP 177-1993). Not
+/// finite if the primaries lie on one line, or if the white's y is 0.
 pub const fn xyz_from_primaries([r, g, b]: [[f64; 2]; 3], white: [f64; 2]) -> Matrix {
     let columns = transposed([xyz_from_xy(r), xyz_from_xy(g), xyz_from_xy(b)]);
     let amounts = apply(&inverse(columns), xyz_from_xy(white));
@@ -76,14 +77,14 @@ const fn scaled(a: [f64; 3], factor: f64) -> [f64; 3] {
     [a[0] * factor, a[1] * factor, a[2] * factor]
 }
 
-/// The inverse of a matrix that has one: cross products of its rows over its determinant.
+/// The inverse of an invertible matrix: cross products of its rows over its determinant.
 pub const fn inverse([a, b, c]: Matrix) -> Matrix {
     let (bc, ca, ab) = (cross(b, c), cross(c, a), cross(a, b));
     let over = 1.0 / dot(a, bc);
     transposed([scaled(bc, over), scaled(ca, over), scaled(ab, over)])
 }
 
-/// Matrix times column.
+/// A matrix times a column.
 pub const fn apply(matrix: &Matrix, column: [f64; 3]) -> [f64; 3] {
     [
         dot(matrix[0], column),
@@ -92,14 +93,14 @@ pub const fn apply(matrix: &Matrix, column: [f64; 3]) -> [f64; 3] {
     ]
 }
 
-/// First `b`, then `a`.
+/// The product a·b: `b` is applied first.
 pub const fn product(a: &Matrix, b: &Matrix) -> Matrix {
     let [x, y, z] = transposed(*b);
     transposed([apply(a, x), apply(a, y), apply(a, z)])
 }
 
-/// XYZ under the D65 white of what has an XYZ under another white (x, y), by Bradford's chromatic
-/// adaptation: that white becomes D65 at the same Y, greys stay grey.
+/// XYZ under the D65 white of a color with a given XYZ under another white (x, y), by Bradford's
+/// chromatic adaptation: that white becomes D65 at the same Y, and grays stay gray.
 pub fn d65_from_white(white: [f64; 2]) -> Matrix {
     let [from, to] = [xyz_from_xy(white), D65_XYZ].map(|xyz| apply(&BRADFORD, xyz));
     let mut scaled_cones = BRADFORD;
@@ -109,8 +110,8 @@ pub fn d65_from_white(white: [f64; 2]) -> Matrix {
     product(&inverse(BRADFORD), &scaled_cones)
 }
 
-/// The sRGB transfer, linear to encoded (IEC 61966-2-1): a straight piece, then a power of
-/// 1/2.4. For 0 to 1; goes on above, and as an odd function below 0.
+/// The sRGB transfer, linear to encoded (IEC 61966-2-1): a straight piece, then a power of 1/2.4.
+/// For 0 to 1; it continues above 1, and as an odd function below 0.
 pub fn encode(linear: f64) -> f64 {
     let size = linear.abs();
     let encoded = if size <= 0.003_130_8 {

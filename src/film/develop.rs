@@ -1,17 +1,18 @@
-//! From the film's XYZ to linear Rec.709 after exposure, or from its bands to bands, and from there
-//! to eight bits.
+//! Development of a film: XYZ to linear Rec. 709 after exposure, or bands to bands; and linear
+//! light to eight bits.
 //!
-//! 0 stops makes 100 cd/m² of the adopted white 1.0, 100 W·m⁻²·sr⁻¹ of a band; every stop more doubles. Nothing is
-//! clipped here but what a float cannot hold: beaming spans more than its 76 decades.
+//! 0 stops makes 100 cd/m² of the adopted white 1.0, or 100 W·m⁻²·sr⁻¹ of a band; each stop
+//! doubles. Nothing is clipped except values that f32 cannot hold, since beaming spans more than
+//! its 76 decades.
 
 use super::Film;
 use rayon::prelude::*;
 
-/// How a film is developed.
+/// Parameters of development.
 #[derive(Debug, Clone, Copy)]
 pub struct Development {
-    /// Linear Rec.709 from CIE XYZ, rows R, G, B; white at Y = 1 becomes (1, 1, 1). For bands the
-    /// identity: each is a colour as it stands.
+    /// Linear Rec. 709 from CIE XYZ, rows R, G, B; white at Y = 1 becomes (1, 1, 1). The identity
+    /// for bands, which are shown as red, green and blue.
     pub rgb_from_xyz: [[f64; 3]; 3],
     /// Exposure in stops: 0 makes 100 cd/m² (W·m⁻²·sr⁻¹ of a band) 1.0, +1 doubles.
     pub exposure_stops: f64,
@@ -23,16 +24,17 @@ pub struct Development {
 /// A developed film: linear light, always finite.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Developed {
-    /// Linear Rec.709, or bands, one for each pixel. 1 is the display's white; negative outside its gamut.
+    /// Linear Rec. 709, or bands, one triple per pixel. 1 is the display's white; values outside
+    /// its gamut are negative.
     pub linear: Vec<[f32; 3]>,
-    /// How many values, on the film or after exposure, were not finite or beyond `f32`.
+    /// Number of values, on the film or after exposure, that were not finite or beyond `f32`.
     /// Infinite and too large ones are clamped to ±`f32::MAX`, NaN becomes 0.
     pub saturated: u64,
 }
 
-/// Develops `film`: rgb = M · xyz / 100 · 2^stops, M being [`Development::rgb_from_xyz`].
+/// Develops `film`: rgb = M · xyz / 100 · 2^stops, with M = [`Development::rgb_from_xyz`].
 pub fn develop(film: &Film, development: &Development) -> Developed {
-    // Held finite: an infinite gain would turn black into NaN.
+    // Kept finite: an infinite gain would turn black into NaN.
     let gain = (development.exposure_stops.exp2() / 100.0).min(f64::MAX);
     let mut saturated = 0;
     let linear = film
@@ -48,7 +50,7 @@ pub fn develop(film: &Film, development: &Development) -> Developed {
     Developed { linear, saturated }
 }
 
-/// Linear light to 8 bits: encoded, clipped to 0 … 1, rounded to nearest. Three bytes a pixel.
+/// Linear light to 8 bits: encoded, clipped to 0 … 1, rounded to nearest. Three bytes per pixel.
 pub fn to_rgb8(developed: &Developed, encode: fn(f64) -> f64) -> Vec<u8> {
     let quantize = |linear: f32| (encode(f64::from(linear)).clamp(0.0, 1.0) * 255.0).round() as u8;
     let mut rgb8 = vec![0; developed.linear.len() * 3];
@@ -66,7 +68,7 @@ fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
-/// The nearest finite `f32`, 0 for NaN; counts what did not fit.
+/// The nearest finite `f32`, 0 for NaN. Counts values that did not fit.
 fn hold(value: f64, saturated: &mut u64) -> f32 {
     const MAX: f64 = f32::MAX as f64;
     if value.abs() <= MAX {

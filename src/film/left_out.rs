@@ -1,49 +1,49 @@
-//! How much of a picture's light was not followed in mirrors and glass.
+//! Estimate of the share of an image's light that was not followed in mirrors and glass.
 //!
-//! Of a ray it is known which share of what arrives by mirrors and glass was cut, as too deep or
-//! too faint, and not how bright that would have been. It is taken to be as bright as the rest: of
-//! a ray that received the light L with the share c cut, L/(1 − c) would have arrived, and c of that
-//! is left out. Exact where everything around is equally bright, and where surfaces that shine
-//! themselves show each other without end. Where most of the rays with something cut see black, the
-//! picture's mean light stands for what they lack, whichever is more: Σ c · ΣL / rays.
+//! For each ray the tracer knows the share of its mirrored and refracted light that was cut,
+//! because it was too deep or too faint, but not how bright that light would have been. It is
+//! assumed to be as bright as the rest: of a ray that received the light L with the share c cut,
+//! L/(1 − c) would have arrived, and c of that is missing. This is exact if everything around is
+//! equally bright, and if luminous surfaces mirror each other without end. If most of the cut rays
+//! see black, the image's mean light is used for them if that gives more: Σ c · ΣL / rays.
 
-/// Largest share of a picture's light that is left out without a word.
+/// Largest share of missing light that causes no warning.
 pub const SILENT: f64 = 0.005;
 
-/// Most that a ray's light is multiplied by to have what it lacks: where nearly nothing of what
-/// arrives was followed, it tells little of the rest.
+/// Largest factor by which a ray's light is extrapolated. If nearly nothing was followed, it says
+/// little of the rest.
 const MOST: f64 = 1000.0;
 
-/// Sums over the rays of a picture.
+/// Sums over the rays of an image.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct LeftOut {
-    /// How many there are.
+    /// Number of rays.
     rays: f64,
-    /// Their light: luminance, or that of all bands.
+    /// Sum of their light: luminance, or radiance of all bands.
     light: f64,
-    /// The shares cut.
+    /// Sum of the shares cut.
     cut: f64,
-    /// Light that is left out by what the rays themselves see.
+    /// Missing light, extrapolated from what the rays themselves received.
     lost: f64,
 }
 
 impl LeftOut {
-    /// Counts so many rays and their light, whatever was cut of it.
+    /// Counts rays and their light, whatever was cut of it.
     #[inline(always)]
     pub fn add_rays(&mut self, rays: u32, light: f64) {
         self.rays += f64::from(rays);
         self.light += light;
     }
 
-    /// Counts what was cut of one ray that received so much light, with
-    /// [`add_rays`](Self::add_rays) apart.
+    /// Counts what was cut of one ray that received this much light. The ray itself is counted by
+    /// [`add_rays`](Self::add_rays).
     #[inline(always)]
     pub fn add_cut(&mut self, cut: f64, light: f64) {
         self.cut += cut;
         self.lost += cut * light * (1.0 / (1.0 - cut).max(0.0)).min(MOST);
     }
 
-    /// Adds the sums of another part of the picture.
+    /// Adds the sums of another part of the image.
     pub fn add(&mut self, other: &Self) {
         self.rays += other.rays;
         self.light += other.light;
@@ -51,8 +51,8 @@ impl LeftOut {
         self.lost += other.lost;
     }
 
-    /// Estimated share of the picture's light that is left out, from 0 to 1. 0 of a black one, and
-    /// where light is beyond all numbers.
+    /// Estimated share of the image's light that is missing, from 0 to 1. 0 for a black image, and
+    /// if light is not finite.
     pub fn share(&self) -> f64 {
         let lost = self.lost.max(self.light * (self.cut / self.rays.max(1.0)));
         let share = lost / (self.light + lost);

@@ -1,26 +1,26 @@
-//! Metering: the exposure that a film calls for, from the percentiles of its luminance, or of the
-//! mean of its bands.
+//! Metering: the exposure for a film, from percentiles of its luminance or of the mean of its
+//! bands.
 
 use super::{Channels, Film};
 
-/// The percentile that automatic exposure looks at.
+/// The percentile for automatic exposure.
 const METERED_PERCENTILE: f64 = 95.0;
-/// The linear value it is brought to.
+/// The linear value to which that percentile is brought.
 const METERED_VALUE: f64 = 0.8;
-/// What 0 stops make 1.0: luminance, cd/m², or a band's radiance, W·m⁻²·sr⁻¹.
+/// The value that 0 stops make 1.0: luminance, cd/m², or radiance of a band, W·m⁻²·sr⁻¹.
 pub const WHITE_AT_ZERO_STOPS: f64 = 100.0;
 
-/// The `p`th percentile of luminance, cd/m², or of the mean of the bands, W·m⁻²·sr⁻¹: the least value that at least `p` percent of the
-/// pixels do not exceed (nearest rank). `p` is held to 0 … 100. NaN and negative values count
-/// as 0, infinite as `f32::MAX`; an empty film gives 0.
+/// The `p`th percentile of luminance, cd/m², or of the mean of the bands, W·m⁻²·sr⁻¹: the least
+/// value that at least `p` percent of the pixels do not exceed (nearest rank). `p` is clamped to 0
+/// … 100. NaN and negative values count as 0, infinite ones as `f32::MAX`; an empty film gives 0.
 pub fn luminance_percentile(film: &Film, p: f64) -> f32 {
     percentile(metered(film).collect(), p)
 }
 
-/// The stops that bring the 95th percentile to 0.8; `None` if all is black.
+/// The exposure in stops that brings the 95th percentile to 0.8; None if the film is black.
 ///
-/// Where more than 95 % of the picture is black, the percentile is taken of the lit pixels, so
-/// that a few lights in the dark are exposed for too.
+/// If more than 95 % of the image is black, the percentile is that of the lit pixels, so that a few
+/// lights in the dark are exposed correctly too.
 pub fn auto_exposure(film: &Film) -> Option<f64> {
     let mut value = luminance_percentile(film, METERED_PERCENTILE);
     if value <= 0.0 {
@@ -30,7 +30,8 @@ pub fn auto_exposure(film: &Film) -> Option<f64> {
     (value > 0.0).then(|| (METERED_VALUE * WHITE_AT_ZERO_STOPS / f64::from(value)).log2())
 }
 
-/// What metering looks at: luminance, or the mean of the bands; never negative, always finite.
+/// The metered value of each pixel: luminance, or the mean of the bands; never negative, always
+/// finite.
 fn metered(film: &Film) -> impl Iterator<Item = f32> {
     film.xyz.iter().map(|channels| {
         let value = match film.channels {

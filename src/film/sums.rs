@@ -1,26 +1,26 @@
-//! The film: what the sensor gathered for each pixel of a picture.
+//! The film: light gathered by the sensor for each pixel of an image.
 
 use super::LeftOut;
 
-/// A picture as the sensor gathered it.
+/// An image as the sensor gathered it.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Film {
-    /// Pixels in a row, at least 1.
+    /// Width in pixels, at least 1.
     pub width: u32,
-    /// Rows, at least 1.
+    /// Height in pixels, at least 1.
     pub height: u32,
-    /// What `xyz` holds.
+    /// The meaning of `xyz`.
     pub channels: Channels,
-    /// CIE 1931 tristimulus values in cd/m², or the radiance of three bands in W·m⁻²·sr⁻¹, one for
-    /// each pixel.
+    /// CIE 1931 tristimulus values in cd/m², or the radiance of three bands in W·m⁻²·sr⁻¹, one
+    /// triple per pixel.
     pub xyz: Vec<[f32; 3]>,
-    /// What else is known of each pixel.
+    /// Scene data for each pixel.
     pub layers: Layers,
-    /// What of its light was not followed in mirrors and glass.
+    /// Light that was not followed in mirrors and glass.
     pub left_out: LeftOut,
 }
 
-/// What the three channels of a film hold.
+/// The meaning of the three channels of a film.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub enum Channels {
     /// CIE 1931 tristimulus values, cd/m².
@@ -31,15 +31,14 @@ pub enum Channels {
     Bands,
 }
 
-/// Scene data beside the light, one value for each pixel, of the first surface that its centre
-/// sees.
+/// Scene data of the first surface seen through the center of each pixel, one value per pixel.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Layers {
     /// Doppler factor ω_observed/ω_source, no unit. 0 where the background is seen.
     pub doppler: Option<Vec<f32>>,
     /// Lab length of the light path, m. 0 where the background is seen.
     pub distance: Option<Vec<f32>>,
-    /// Lab time of the emission event, in metres of light travel. 0 where the background is seen.
+    /// Lab time of the emission event, in meters of light travel. 0 where the background is seen.
     pub emission_time: Option<Vec<f32>>,
     /// Index of the worldline that carries the surface. −1 where the background is seen.
     pub worldline: Option<Vec<f32>>,

@@ -1,45 +1,45 @@
-//! How far apart two pictures are: for tests against golden pictures and for accuracy studies.
+//! Differences of two images, for tests against golden images and for accuracy studies.
 //!
-//! By eye ([`color_difference`], CIEDE2000 of each pixel), by light ([`relative_rmse`],
-//! [`max_difference`], on linear values), and as a picture ([`panels`]).
+//! In color ([`color_difference`], CIEDE2000 of each pixel), in linear values ([`relative_rmse`],
+//! [`max_difference`]), and as an image ([`panels`]).
 
 use crate::color::{Lab, delta_e_2000, lab_from_xyz};
 
-/// Differences of this many levels or more are white in a [`panels`] picture.
+/// Difference, in levels, from which on a pixel of [`panels`] is white.
 const WHITE_DIFFERENCE: u32 = 32;
 
-/// Two pictures that cannot be compared.
+/// Reason why two images cannot be compared.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum CompareError {
-    /// One has more values than the other.
+    /// The images have different sizes.
     #[error("pictures of different size cannot be compared: {a} against {b} values")]
     Size {
-        /// Values of the first.
+        /// Number of values of the first.
         a: usize,
-        /// Values of the second.
+        /// Number of values of the second.
         b: usize,
     },
-    /// They hold no whole pixels, or not `width` of them in a row.
+    /// The values are not whole pixels, or not whole rows of `width` pixels.
     #[error("{values} values are no picture of {width} pixels a row")]
     Shape {
-        /// Values of each picture.
+        /// Number of values of each image.
         values: usize,
-        /// Pixels in a row.
+        /// Width in pixels.
         width: usize,
     },
 }
 
-/// What the numbers of an RGB picture mean.
+/// The meaning of the numbers of an RGB image.
 #[derive(Debug, Clone, Copy)]
 pub struct Viewing {
-    /// XYZ from linear RGB; the white of reference is that of RGB (1, 1, 1).
+    /// XYZ from linear RGB; the reference white is that of RGB (1, 1, 1).
     pub xyz_from_rgb: [[f64; 3]; 3],
-    /// From encoded to linear value, both 0 to 1: the inverse of the sRGB curve.
+    /// Transfer from encoded to linear value, both 0 to 1: the inverse of the sRGB curve.
     pub decode: fn(f64) -> f64,
 }
 
 impl Viewing {
-    /// The colour of an encoded 8-bit pixel.
+    /// The color of an encoded 8-bit pixel.
     pub fn lab_from_rgb8(&self, rgb8: [u8; 3]) -> Lab {
         let rgb = rgb8.map(|byte| (self.decode)(f64::from(byte) / 255.0));
         lab_from_xyz(self.xyz(rgb), self.xyz([1.0; 3]))
@@ -51,19 +51,19 @@ impl Viewing {
     }
 }
 
-/// The differences of all pixels in three numbers.
+/// Three numbers on the differences of all pixels.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Comparison {
     /// Their mean.
     pub mean: f64,
-    /// What 99 % of them do not exceed (nearest rank).
+    /// The 99th percentile (nearest rank).
     pub p99: f64,
     /// The largest.
     pub worst: f64,
 }
 
 impl Comparison {
-    /// Sums up `differences`, of which NaN counts as infinite; all 0 if there are none.
+    /// Statistics of `differences`, in which NaN counts as infinite; all 0 if there are none.
     pub fn of(mut differences: Vec<f64>) -> Self {
         for difference in &mut differences {
             if difference.is_nan() {
@@ -87,10 +87,10 @@ impl Comparison {
     }
 }
 
-/// CIEDE2000 between the pixels of two encoded pictures, three bytes a pixel.
+/// CIEDE2000 between the pixels of two encoded images, three bytes per pixel.
 ///
 /// # Errors
-/// If their sizes differ, or are no multiple of three.
+/// If their sizes differ, or are not a multiple of three.
 pub fn color_difference(a: &[u8], b: &[u8], viewing: &Viewing) -> Result<Comparison, CompareError> {
     check_pair(a.len(), b.len())?;
     let ((pixels_a, rest), (pixels_b, _)) = (a.as_chunks::<3>(), b.as_chunks::<3>());
@@ -145,12 +145,12 @@ pub fn max_difference(a: &[[f32; 3]], b: &[[f32; 3]]) -> Result<f64, CompareErro
     Ok(pairs(a, b).map(difference).fold(0.0, worst))
 }
 
-/// The picture to look at when two differ: `a`, `b`, and the difference of each channel, side by
-/// side, three times as wide. A difference of 32 levels is white, so that one of a single level
-/// can be seen.
+/// An image for people to look at when two images differ: `a`, `b`, and the difference of each
+/// channel, side by side, three times as wide. A difference of 32 levels is white, so that a single
+/// level is visible.
 ///
 /// # Errors
-/// If their sizes differ, or are no multiple of a row of `width` pixels of three bytes.
+/// If their sizes differ, or are not a multiple of a row of `width` pixels of three bytes.
 pub fn panels(width: u32, a: &[u8], b: &[u8]) -> Result<Vec<u8>, CompareError> {
     check_pair(a.len(), b.len())?;
     let width = width as usize;

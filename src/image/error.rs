@@ -1,39 +1,39 @@
-//! Why a picture cannot be put into a file.
+//! Errors of encoding an image.
 
-/// Why a picture cannot be put into a file.
+/// Reason why an image cannot be encoded.
 #[derive(Debug, thiserror::Error)]
 pub enum EncodeError {
-    /// A side is zero, or there are more pixels than this machine can count.
+    /// A side is zero, or the number of pixels overflows.
     #[error("a picture of {width} x {height} pixels cannot be held; both sides must be at least 1")]
     Size {
-        /// Pixels in a row.
+        /// Width in pixels.
         width: u32,
-        /// Rows.
+        /// Height in pixels.
         height: u32,
     },
-    /// The data do not fill the picture, or overflow it.
+    /// The data are too few or too many for the image.
     #[error("{what} has {found} values where {width} x {height} pixels need {expected}")]
     Length {
-        /// Which of the data: a channel or layer.
+        /// Name of the data: a channel or layer.
         what: &'static str,
-        /// Pixels in a row.
+        /// Width in pixels.
         width: u32,
-        /// Rows.
+        /// Height in pixels.
         height: u32,
-        /// How many values the picture needs.
+        /// Number of values that the image needs.
         expected: usize,
-        /// How many were given.
+        /// Number of values given.
         found: usize,
     },
-    /// The PNG encoder refused.
+    /// Error of the PNG encoder.
     #[error("cannot encode the PNG: {0}")]
     Png(#[from] ::png::EncodingError),
-    /// The OpenEXR encoder refused.
+    /// Error of the OpenEXR encoder.
     #[error("cannot encode the EXR: {0}")]
     Exr(#[from] ::exr::error::Error),
 }
 
-/// How many values a picture has, with `channels` to a pixel.
+/// Number of values of an image with `channels` per pixel.
 ///
 /// # Errors
 /// [`EncodeError::Size`] if a side is zero or the product overflows.
@@ -45,7 +45,7 @@ pub fn value_count(width: u32, height: u32, channels: usize) -> Result<usize, En
     }
 }
 
-/// Checks that `found` values of `what` fill a picture with `channels` to a pixel.
+/// Checks that `found` values of `what` fill an image with `channels` per pixel.
 pub(super) fn check_length(
     what: &'static str,
     (width, height): (u32, u32),

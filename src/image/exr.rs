@@ -1,17 +1,16 @@
-//! OpenEXR: linear Rec.709, or the radiance of three bands, and the film's layers, with everything
-//! that was decided about the frame.
+//! OpenEXR: linear Rec. 709, or the radiance of three bands, with the film's layers and the facts
+//! of the frame.
 //!
-//! One part, ZIP in blocks of 16 rows. Channels R, G, B in floats of a [`Depth`], and one of 32 bits
-//! for each layer under its plain name: `distance`, `doppler`, `emission_time`, `worldline` (units:
-//! [`Layers`]). Text is UTF-8.
-//! Source of the attributes: the OpenEXR standard attributes (openexr.com), `samplesPerPixel` as
-//! pbrt writes it, `colorInteropID` of the Color Interop Forum; those of our own begin
-//! `restframe:`.
+//! One part, ZIP in blocks of 16 rows. Channels R, G, B in floats of a [`Depth`], and one of 32
+//! bits for each layer under its plain name: `distance`, `doppler`, `emission_time`, `worldline`
+//! (units: [`Layers`]). Text is UTF-8. Sources of the attributes: the OpenEXR standard attributes
+//! (openexr.com), `samplesPerPixel` as pbrt writes it, `colorInteropID` of the Color Interop Forum;
+//! our own begin with `restframe:`.
 //!
-//! Equal input gives equal bytes. The encoder keeps free attributes in a hash map and so writes
-//! them in an order that differs from run to run; they are sorted by name afterwards. Blocks
-//! are compressed on the calling thread: the encoder would otherwise start threads of its own
-//! beside those that were asked for.
+//! Equal input gives equal bytes. The encoder keeps free attributes in a hash map and writes them
+//! in an order that differs from run to run, so they are sorted by name afterward. Blocks are
+//! compressed on the calling thread, because the encoder would otherwise start threads beside those
+//! that were asked for.
 
 use super::error::check_length;
 use super::{EncodeError, FINGERPRINT, Metadata};
@@ -29,18 +28,19 @@ const REC709: Chromaticities = Chromaticities {
 };
 const D65: Vec2<f32> = Vec2(0.3127, 0.3290);
 
-/// What the channels R, G, B are held in.
+/// Number format of the channels R, G, B.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub enum Depth {
-    /// 32 bits a value: as developed.
+    /// 32 bits per value, as developed.
     #[default]
     Float,
-    /// 16 bits a value, IEEE 754 binary16: to 2⁻¹¹ of the value from 2⁻¹⁴ to 65504, to 2⁻²⁵ below.
+    /// 16 bits per value, IEEE 754 binary16: to 2⁻¹¹ of the value from 2⁻¹⁴ to 65504, to 2⁻²⁵
+    /// below.
     Half,
 }
 
 impl Depth {
-    /// The largest value that can be held.
+    /// The largest value of the format.
     pub fn largest(self) -> f32 {
         match self {
             Self::Float => f32::MAX,
@@ -49,19 +49,19 @@ impl Depth {
     }
 }
 
-/// How many values of the picture are beyond the largest of `depth`, to which [`encode`] clamps
-/// them. Those at ±`f32::MAX` are left out: [`Developed::saturated`] has counted them.
+/// Number of values of the image beyond the largest of `depth`, to which [`encode`] clamps them.
+/// Those at ±`f32::MAX` are not counted: they are in [`Developed::saturated`].
 pub fn clamped(developed: &Developed, depth: Depth) -> u64 {
     let beyond = |value: f32| value > depth.largest() && value < f32::MAX;
     let values = developed.linear.iter().flatten();
     values.filter(|value| beyond(value.abs())).count() as u64
 }
 
-/// The bytes of an EXR file, its colors rounded to the nearest of `depth`.
+/// The bytes of an EXR file, with colors rounded to the nearest value of `depth`.
 ///
 /// # Errors
-/// If a side is zero, if the picture or a layer has not one value for each pixel, or if the
-/// encoder refuses.
+/// If a side is zero, if the image or a layer does not have one value for each pixel, or if the
+/// encoder fails.
 pub fn encode(
     width: u32,
     height: u32,
@@ -142,7 +142,7 @@ fn attributes(metadata: &Metadata) -> LayerAttributes {
     attributes
 }
 
-/// The attributes that OpenEXR has no field for.
+/// Attributes for which OpenEXR has no field.
 fn free_attributes(metadata: &Metadata) -> [(&'static str, Option<AttributeValue>); 12] {
     use AttributeValue::{F64, FloatVec2, FloatVec3, I32, Text, TextVector};
     let whole = |value: u32| I32(i32::try_from(value).unwrap_or(i32::MAX));
@@ -178,13 +178,13 @@ fn free_attributes(metadata: &Metadata) -> [(&'static str, Option<AttributeValue
     ]
 }
 
-/// UTF-8 as it stands: the crate's own conversion knows Latin-1 only and refuses the rest.
+/// UTF-8 text unchanged: the crate's own conversion knows Latin-1 only and refuses the rest.
 fn text(text: &str) -> Text {
     Text::from_slice_unchecked(text.as_bytes())
 }
 
 /// Sorts the header's attributes by name, in place: their total length stays, and so does every
-/// offset in the file. `None` if the bytes are not a header.
+/// offset in the file. None if the bytes are not a header.
 ///
 /// A file begins with four bytes of magic and four of version; an attribute is name, NUL, type,
 /// NUL, length (little-endian, 4 bytes), value; an empty name ends the header.

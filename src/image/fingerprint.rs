@@ -1,7 +1,8 @@
-//! What a picture file says it is made of, read back; and whether all of it can be read.
+//! Reading back the fingerprint of an image file, and checking that the file can be decoded
+//! completely.
 //!
-//! Files may be anybody's: what cannot be read is no picture, and no more memory is taken than a
-//! header, or a picture of the size that is expected, needs.
+//! Files may come from anyone: one that cannot be read counts as no image, and takes no more memory
+//! than a header, or an image of the expected size, needs.
 
 use super::FINGERPRINT;
 use super::decode::{self, MOST_METADATA, read_bytes};

@@ -1,24 +1,24 @@
-//! What a picture file says about itself beside its pixels, the same for PNG and EXR.
+//! Metadata of an image file, the same for PNG and EXR.
 //!
-//! All but the channels is optional and only what is given is written. Wall-clock facts have no place
-//! here: equal shots give equal bytes.
+//! Everything except the channels is optional; only what is given is written. There are no
+//! wall-clock times here, because equal shots give equal bytes.
 
 use crate::film::Channels;
 
-/// What this program calls itself in files.
+/// Name and version of this program, as files have it.
 pub const SOFTWARE: &str = concat!("restframe ", env!("CARGO_PKG_VERSION"));
 
-/// Under what name a picture says what it is made of.
+/// Keyword of the fingerprint in image files.
 pub const FINGERPRINT: &str = "restframe:fingerprint";
 
-/// The facts written into a file. The names in files are those of each field's sentence.
+/// The facts written into a file. Each field states their names in files.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Metadata {
     /// Program and version, `software` or `Software`; see [`SOFTWARE`].
     pub software: Option<String>,
-    /// A title or remark, `comments` or `Comment`.
+    /// A title or comment, `comments` or `Comment`.
     pub comments: Option<String>,
-    /// Whose picture this is, `owner` or `Author`.
+    /// Owner of the image, `owner` or `Author`.
     pub owner: Option<String>,
     /// Frames per second of the sequence, `framesPerSecond` (EXR only, a rational). Above 0.
     pub frames_per_second: Option<f64>,
@@ -28,15 +28,15 @@ pub struct Metadata {
     pub camera_from_world: Option<[f64; 16]>,
     /// World to normalized device space, `worldToNDC` (EXR only), ordered as the other.
     pub ndc_from_world: Option<[f64; 16]>,
-    /// What R, G and B are made of. Of bands the files say `restframe:color`, "bands", and nothing
-    /// that only holds for colours: in the EXR neither `chromaticities`, `adoptedNeutral` nor
-    /// `whiteLuminance`, and the `colorInteropID` of data that is no colour.
+    /// Meaning of R, G and B. For bands the files have `restframe:color`, "bands", and nothing that
+    /// holds only for colors: the EXR has neither `chromaticities`, `adoptedNeutral` nor
+    /// `whiteLuminance`, and the `colorInteropID` of data that are not a color.
     pub channels: Channels,
     /// Shortest and longest wavelength seen, nm, `restframe:window`.
     pub window_nm: Option<[f64; 2]>,
-    /// Exposure in stops, `restframe:exposure`: what 1.0 is, 100 / 2^stops in cd/m² of white, or in
-    /// W·m⁻²·sr⁻¹ of a band. For colours it also gives the EXR's `whiteLuminance`, the cd/m² of
-    /// RGB (1, 1, 1).
+    /// Exposure in stops, `restframe:exposure`: 1.0 is 100 / 2^stops in cd/m² of white, or in
+    /// W·m⁻²·sr⁻¹ of a band. For colors it also gives the EXR's `whiteLuminance`, the cd/m² of RGB
+    /// (1, 1, 1).
     pub exposure_stops: Option<f64>,
     /// Samples per pixel, `samplesPerPixel` (PNG: `restframe:samples`).
     pub samples_per_pixel: Option<u32>,
@@ -44,22 +44,23 @@ pub struct Metadata {
     pub frame: Option<u32>,
     /// Velocity of the camera in the lab, units of c, `restframe:beta`.
     pub beta: Option<[f64; 3]>,
-    /// Lorentz factor of the camera in the lab, `restframe:gamma`; exact where `beta` in the
+    /// Lorentz factor of the camera in the lab, `restframe:gamma`; exact even where `beta` in the
     /// EXR's single precision is 1.
     pub lorentz_factor: Option<f64>,
     /// The shot's time at the frame, s, `restframe:time`.
     pub time_s: Option<f64>,
     /// Names of the worldlines in the order of the layer's numbers, `restframe:worldlines`.
     pub worldlines: Vec<String>,
-    /// What the picture is made of, as a hash, `restframe:fingerprint`; read back by
-    /// [`imprint`](super::fingerprint).
+    /// Fingerprint: hash of everything that affects the pixels, `restframe:fingerprint`; read back
+    /// by [`fingerprint`](super::fingerprint).
     pub fingerprint: Option<String>,
     /// The shot as TOML, `restframe:shot`.
     pub shot: Option<String>,
 }
 
 impl Metadata {
-    /// RGB (1, 1, 1) in cd/m², if it is a colour, the exposure is known and `f32` can hold it.
+    /// The luminance of RGB (1, 1, 1) in cd/m², if it is a color, the exposure is known and `f32`
+    /// can hold it.
     pub(super) fn white_luminance(&self) -> Option<f32> {
         if self.channels != Channels::Xyz {
             return None;

@@ -1,10 +1,10 @@
-//! Picture files: PNG and OpenEXR written, read back and compared.
+//! Image files: PNG and OpenEXR written, read back and compared.
 //!
 //! In: developed pixels and [`Metadata`]. Out: files as bytes in memory ([`png::encode`],
 //! [`exr::encode`]); the pixels and metadata of files, whoever wrote them ([`decode`],
-//! [`fingerprint`]); differences of two pictures ([`compare`]). Pixels are row-major, top row first.
-//! Invariant: equal input gives equal bytes, whatever the number of threads; so no file holds a
-//! date, a host or a duration.
+//! [`fingerprint`]); differences of two images ([`compare`]). Pixels are row-major, top row first.
+//! Equal input gives equal bytes for any number of threads, so no file holds a date, a host or a
+//! duration.
 
 pub mod compare;
 pub mod decode;

@@ -1,6 +1,6 @@
-//! PNG: eight bits a channel, sRGB, with the facts of the frame as text chunks.
+//! PNG: eight bits per channel, sRGB, with the facts of the frame as text chunks.
 //!
-//! Text that is plain ASCII goes into tEXt, any other into iTXt. pHYs says square pixels of no
+//! Plain ASCII text goes into tEXt chunks, other text into iTXt. pHYs states square pixels of no
 //! particular size.
 
 use super::error::check_length;
@@ -10,8 +10,8 @@ use crate::film::Channels;
 /// The bytes of a PNG file.
 ///
 /// # Errors
-/// If a side is zero, if `rgb8` is not three bytes for each pixel, or if the encoder refuses
-/// (a text of 2 GiB, say).
+/// If a side is zero, if `rgb8` is not three bytes for each pixel, or if the encoder fails (a text
+/// of 2 GiB, for example).
 pub fn encode(
     width: u32,
     height: u32,

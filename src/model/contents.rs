@@ -1,31 +1,31 @@
-//! What a model file holds, as plain values.
+//! Contents of a model file, as plain values.
 
 use super::Warning;
 use ::glam::{DAffine3, DVec3, Vec3};
 
-/// What a model file holds.
+/// The contents of a model file.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Model {
     /// Meshes, each in its own coordinates.
     pub meshes: Vec<Mesh>,
-    /// Where the meshes stand: every instance of every mesh.
+    /// Placements: every instance of every mesh.
     pub placements: Vec<Placement>,
     /// Materials that meshes refer to by index.
     pub materials: Vec<ModelMaterial>,
     /// Lamps.
     pub lamps: Vec<Lamp>,
-    /// What of the file the picture will not show.
+    /// Content of the file that the image will not show.
     pub warnings: Vec<Warning>,
 }
 
 /// Triangles of one material.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Mesh {
-    /// Corners, metres. Finite, and each used by a triangle.
+    /// Vertices, meters. Finite, and each used by a triangle.
     pub positions: Vec<DVec3>,
-    /// One unit normal a position, or `None`: the triangles are flat.
+    /// One unit normal per position; None if the triangles are flat.
     pub normals: Option<Vec<Vec3>>,
-    /// Indices into `positions`, counter-clockwise seen from outside. None is of zero area.
+    /// Indices into `positions`, counterclockwise seen from outside. No triangle has zero area.
     pub triangles: Vec<[u32; 3]>,
     /// Index into [`Model::materials`].
     pub material: Option<usize>,
@@ -36,7 +36,7 @@ pub struct Mesh {
 pub struct Placement {
     /// Index into [`Model::meshes`].
     pub mesh: usize,
-    /// The model's space from the mesh's. Invertible; mirrors where its determinant is negative.
+    /// Model space from mesh space. Invertible; a negative determinant mirrors.
     pub world: DAffine3,
     /// Name of the glTF node, or of the OBJ object or group.
     pub node: String,
@@ -49,45 +49,46 @@ pub struct ModelMaterial {
     pub name: String,
     /// Linear RGB reflectance, 0 to 1.
     pub base_color: [f64; 3],
-    /// Linear RGB of the light it gives off, factor × strength, in units of `emissive_unit`.
+    /// Linear RGB of emission, factor × strength, in units of `emissive_unit`.
     pub emissive: [f64; 3],
     /// Luminance of an emissive white of 1, cd/m²: 683 in files by Blender, else 1.
     pub emissive_unit: f64,
-    /// Whether the back is seen as well as the front.
+    /// Whether the back is visible too.
     pub double_sided: bool,
 }
 
-/// Lumens in a watt as Blender's exporters count them for lamps, whatever the light. Emission they
-/// leave in watts, which are worth as much, so that one exposure serves both.
+/// Lumens per watt by which Blender's exporters convert the power of lamps, whatever their light.
+/// They leave emission in watts, which count the same here, so that one exposure serves both.
 pub(crate) const LUMENS_PER_WATT: f64 = 683.0;
 
-/// A lamp, which looks along the negative z axis of its own coordinates.
+/// A lamp, which points along the negative z axis of its own coordinates.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Lamp {
-    /// Name in the file: the node's.
+    /// Name of its node in the file.
     pub name: String,
     /// Its kind.
     pub kind: LampKind,
-    /// As in the file: cd for point and spot, lx for sun, unless it was written in other units.
+    /// Intensity as in the file: cd for point and spot, lx for sun, unless the file uses other
+    /// units.
     pub intensity: f64,
     /// Linear RGB.
     pub color: [f64; 3],
-    /// The model's space from the lamp's: a rotation and a translation, never a scale.
+    /// Model space from lamp space: a rotation and a translation, never a scale.
     pub world: DAffine3,
 }
 
-/// How a lamp shines.
+/// Distribution of a lamp's light.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum LampKind {
-    /// From a point, alike in all directions.
+    /// From a point, equally in all directions.
     Point,
-    /// From infinitely far, along one direction.
+    /// From infinity, along one direction.
     Sun,
     /// From a point into a cone.
     Spot {
-        /// Half angle up to which it shines in full, radians.
+        /// Half-angle of the fully lit cone, radians.
         inner: f64,
-        /// Half angle beyond which it is dark, radians. At least `inner`, and may equal it.
+        /// Half-angle beyond which the lamp is dark, radians. At least `inner`.
         outer: f64,
     },
 }

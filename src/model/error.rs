@@ -1,57 +1,58 @@
-//! What can be wrong with a model file: each message says what, where, what was expected, what to do.
+//! Errors of model files. Each message states what is wrong, where, what was expected and what to
+//! do.
 
 use crate::shot::FileError;
 use std::path::{Path, PathBuf};
 use thiserror::Error;
 
-/// Why a model file was not read.
+/// Reason why a model file was not read.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum ModelError {
     /// The file, or one that it names, could not be read.
     #[error(transparent)]
     File(#[from] FileError),
-    /// The extension names no form that is read.
+    /// The extension is not that of a supported format.
     #[error("`{}` is of a kind that is not read: expected a name ending in .obj, .gltf or .glb; export it so", file.display())]
     UnknownKind {
         /// The model file.
         file: PathBuf,
     },
-    /// The file holds no surface and no lamp.
+    /// The file has no surface and no lamp.
     #[error("model `{}` is empty: it places no triangle of nonzero area and no lamp; export at least one mesh with faces", file.display())]
     Empty {
         /// The model file.
         file: PathBuf,
     },
-    /// The file's text is not OBJ at all.
+    /// The text of the file is not OBJ.
     #[error("`{}` is not an OBJ file: line {line} begins with {found}, expected one of v, vt, vn, f, o, g, s, usemtl, mtllib or #", file.display())]
     NotObj {
         /// The model file.
         file: PathBuf,
         /// Line, from 1.
         line: usize,
-        /// What stands there.
+        /// The text there.
         found: String,
     },
-    /// Text of two bytes a letter.
+    /// The text is UTF-16.
     #[error("`{}` is text in UTF-16, expected UTF-8: save it as UTF-8", file.display())]
     Utf16 {
         /// The OBJ or MTL file.
         file: PathBuf,
     },
-    /// A line of an OBJ or MTL file that cannot be understood.
+    /// A line of an OBJ or MTL file is not understood.
     #[error("{}:{line}: found `{found}`, expected {expected}", file.display())]
     Line {
         /// The OBJ or MTL file.
         file: PathBuf,
         /// Line, from 1.
         line: usize,
-        /// What stands there.
+        /// The text there.
         found: String,
-        /// What should.
+        /// Expected text.
         expected: &'static str,
     },
-    /// A face of an OBJ file refers to something that is not there.
+    /// A face of an OBJ file refers to a vertex or normal that does not exist.
     #[error("{}:{line}: the face asks for {what} {index}, but there are only {count}: the file is cut short or was edited by hand; export it again", file.display())]
     ObjIndex {
         /// The model file.
@@ -60,9 +61,9 @@ pub enum ModelError {
         line: usize,
         /// "position" or "normal".
         what: &'static str,
-        /// As written: from 1, or negative from the latest.
+        /// The index as written: from 1, or negative from the latest.
         index: i64,
-        /// How many there are.
+        /// Number of those that exist.
         count: i64,
     },
     /// A face of an OBJ file counts from 0.
@@ -75,12 +76,12 @@ pub enum ModelError {
         /// "position" or "normal".
         what: &'static str,
     },
-    /// The OBJ reader refused the file, and it is not known where.
+    /// The OBJ reader refused the file without a line number.
     #[error("model `{}` cannot be read as OBJ: {reason}", file.display())]
     Obj {
         /// The model file.
         file: PathBuf,
-        /// What it said.
+        /// Message of the reader.
         reason: String,
     },
     /// The container of a glb file is broken.
@@ -88,11 +89,11 @@ pub enum ModelError {
     Glb {
         /// The model file.
         file: PathBuf,
-        /// Where.
+        /// Position, in bytes.
         byte: usize,
-        /// What should stand there.
+        /// Expected content.
         expected: String,
-        /// What does.
+        /// Content found.
         found: String,
     },
     /// The JSON of a glTF file does not parse, or is not of glTF's shape.
@@ -100,17 +101,17 @@ pub enum ModelError {
     Json {
         /// The model file.
         file: PathBuf,
-        /// What the parser said, with line and column where it knows them.
+        /// Message of the parser, with line and column if known.
         reason: String,
     },
-    /// The file is of another version of glTF.
+    /// The file has another version of glTF.
     #[error("model `{}` {found}, expected 2.0: {remedy}", file.display())]
     Version {
         /// The model file.
         file: PathBuf,
-        /// Which version it is of, or needs.
+        /// The version that the file has or needs.
         found: String,
-        /// What to do about it.
+        /// Remedy.
         remedy: &'static str,
     },
     /// The file needs an extension that is not supported.
@@ -120,51 +121,51 @@ pub enum ModelError {
         file: PathBuf,
         /// The extension's name.
         extension: String,
-        /// What to do about it.
+        /// Remedy.
         remedy: &'static str,
     },
-    /// An item of a glTF file refers to another that is not there.
+    /// An item of a glTF file refers to another that does not exist.
     #[error("model `{}`: {from} refers to {what} {index}, but there are only {count}: the file is broken; export it again", file.display())]
     Dangling {
         /// The model file.
         file: PathBuf,
         /// The item that refers.
         from: String,
-        /// What it refers to.
+        /// Kind of the item referred to.
         what: &'static str,
-        /// By which index.
+        /// Its index.
         index: usize,
-        /// How many there are.
+        /// Number of those that exist.
         count: usize,
     },
-    /// A value of a glTF file that breaks a rule.
+    /// A value of a glTF file violates a rule.
     #[error("model `{}`: {at} {problem}", file.display())]
     Invalid {
         /// The model file.
         file: PathBuf,
-        /// Which item.
+        /// The item.
         at: String,
-        /// What is wrong with it, found and expected.
+        /// The problem, with found and expected values.
         problem: String,
     },
-    /// An index of a mesh beyond its vertices.
+    /// An index of a mesh exceeds its vertices.
     #[error("model `{}`: {mesh} has a triangle with vertex {index}, but only {count} vertices: the file is broken; export it again", file.display())]
     Index {
         /// The model file.
         file: PathBuf,
-        /// Which mesh.
+        /// The mesh.
         mesh: String,
         /// The index.
         index: u32,
-        /// How many vertices there are.
+        /// Number of vertices.
         count: usize,
     },
-    /// A number that is NaN or infinite.
+    /// A number is NaN or infinite.
     #[error("model `{}`: {at} is not finite: found {found}, expected numbers below 1e38; look for a broken modifier or scale", file.display())]
     NotFinite {
         /// The model file.
         file: PathBuf,
-        /// Which number.
+        /// The number.
         at: String,
         /// Its value.
         found: String,
@@ -172,27 +173,27 @@ pub enum ModelError {
     /// The nodes do not form a tree.
     #[error("model `{}`: {node} is its own ancestor or the child of two nodes, expected a tree: duplicate it so that each copy has one parent", file.display())]
     NotATree {
-        /// The model file.
+        /// The node.
         file: PathBuf,
         /// Which node.
         node: String,
     },
-    /// More of something than is read.
+    /// There is more of something than is read.
     #[error("model `{}` holds {count} {what} or more, expected at most {limit}", file.display())]
     TooMany {
         /// The model file.
         file: PathBuf,
-        /// Of what.
+        /// Name of the items.
         what: &'static str,
-        /// How many were counted.
+        /// Number found.
         count: u64,
-        /// How many are allowed.
+        /// Number allowed.
         limit: u64,
     },
 }
 
 impl ModelError {
-    /// What is wrong with a part of a file.
+    /// The error for an invalid part of a file.
     pub(super) fn invalid(file: &Path, at: &str, problem: impl Into<String>) -> Self {
         Self::Invalid {
             file: file.to_owned(),

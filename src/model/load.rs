@@ -1,4 +1,4 @@
-//! A model file by its kind.
+//! Choice of the importer by the kind of file.
 
 use super::{Model, ModelError, gltf, obj};
 use crate::shot::ModelFiles;
@@ -6,11 +6,11 @@ use std::path::Path;
 
 /// Reads a model file: OBJ by its extension, glTF and glb by extension and content.
 ///
-/// A file that the model names (buffers, material libraries) must lie in the model's own folder or
-/// one of `may_read`, or below, links resolved; the model file itself may lie anywhere.
+/// A file that the model names (buffers, material libraries) must be in the model's own folder or
+/// one of `may_read`, or below, with links resolved; the model file itself may be anywhere.
 ///
 /// # Errors
-/// A file that is missing, broken, empty, too large or in need of something not supported.
+/// A file that is missing, broken, empty, too large, or requires something that is not supported.
 pub fn load(path: &Path, may_read: &[&Path]) -> Result<Model, ModelError> {
     let extension = path
         .extension()

@@ -1,11 +1,11 @@
-//! Checks that materials of both file kinds share.
+//! Checks shared by the materials of both formats.
 
 use super::{ModelError, ModelMaterial, Warning};
 use std::path::Path;
 
 impl ModelMaterial {
-    /// The material with its reflectance clamped to 0..1, which warns, and its emission finite and
-    /// not negative, which is a mistake otherwise.
+    /// The material with its reflectance clamped to 0..1, with a warning. Emission that is negative
+    /// or not finite is an error.
     pub(super) fn checked(
         mut self,
         file: &Path,

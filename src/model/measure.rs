@@ -12,7 +12,7 @@ impl Model {
             .sum()
     }
 
-    /// The corners of every triangle in the model's space, with the index of its placement.
+    /// The vertices of every triangle in model space, with the index of its placement.
     pub fn world_triangles(&self) -> impl Iterator<Item = (usize, [DVec3; 3])> + '_ {
         self.placements
             .iter()
@@ -34,8 +34,8 @@ impl Model {
             .sum()
     }
 
-    /// Signed volume within all surfaces, m³: of meaning where they are closed. Negative where the
-    /// triangles are wound inwards, as those of a mirrored instance are.
+    /// Signed volume within all surfaces, m³, meaningful if they are closed. Negative if the
+    /// triangles are wound inward, as those of a mirrored instance are.
     pub fn volume(&self) -> f64 {
         let Some((low, high)) = self.bounds() else {
             return 0.0;
@@ -46,7 +46,7 @@ impl Model {
             .sum()
     }
 
-    /// Least and greatest coordinates of all surfaces, metres; `None` without any.
+    /// Least and greatest coordinates of all surfaces, meters; None if there are none.
     pub fn bounds(&self) -> Option<(DVec3, DVec3)> {
         self.world_triangles()
             .flat_map(|(_, corners)| corners)

@@ -1,28 +1,29 @@
-//! From corners and indices as a file has them to a checked [`Mesh`].
+//! From vertices and indices as a file has them to a checked [`Mesh`].
 //!
-//! A coordinate beyond f32's range counts as not finite: the tracer works in f32 around a body.
+//! A coordinate beyond the range of f32 counts as not finite: boxes of the acceleration trees are
+//! in f32.
 
 use super::{Mesh, ModelError, Warning};
 use ::glam::{DVec3, Vec3};
 use std::path::Path;
 
-/// A mesh as a file has it, nothing checked.
+/// A mesh as the file has it, unchecked.
 #[derive(Debug, Default)]
 pub(super) struct RawMesh {
-    /// Which mesh, for messages.
+    /// Its name, for messages.
     pub(super) name: String,
-    /// Corners.
+    /// Vertices.
     pub(super) positions: Vec<DVec3>,
-    /// One normal a corner, of any length.
+    /// One normal per vertex, of any length.
     pub(super) normals: Option<Vec<DVec3>>,
-    /// Indices of the corners.
+    /// Indices of vertices.
     pub(super) triangles: Vec<[u32; 3]>,
     /// Index of the material.
     pub(super) material: Option<usize>,
 }
 
 impl RawMesh {
-    /// Checks indices and numbers and leaves out what has no area. `None` when nothing is left.
+    /// Checks indices and numbers, and removes triangles without area. None if nothing is left.
     pub(super) fn check(
         mut self,
         file: &Path,
@@ -78,7 +79,7 @@ impl RawMesh {
         Ok(())
     }
 
-    /// Keeps the corners that triangles use: primitives may share one long list.
+    /// Keeps only the vertices that triangles use: primitives may share one long list.
     fn compact(&mut self) {
         const UNUSED: u32 = u32::MAX;
         let mut new_from_old = vec![UNUSED; self.positions.len()];
@@ -100,8 +101,8 @@ impl RawMesh {
         }
     }
 
-    /// The normals at unit length; where one points nowhere, the area-weighted mean of the
-    /// triangles around it.
+    /// The normals at unit length. One that points nowhere is replaced by the area-weighted mean of
+    /// the triangles around it.
     fn unit_normals(&mut self, warnings: &mut Vec<Warning>) -> Option<Vec<Vec3>> {
         let mut normals = self.normals.take()?;
         if normals.iter().any(|n| n.try_normalize().is_none()) {

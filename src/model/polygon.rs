@@ -1,21 +1,22 @@
-//! Triangles of a polygon with any number of corners, concave ones included.
+//! Triangulation of a polygon with any number of corners, including concave ones.
 //!
-//! A quad is cut from its first to its third corner, or the other way where the first way would
-//! turn a triangle over. One that is not planar may be cut the other way by another program: the
-//! file does not say. More corners are cut by ear clipping in the plane of Newell's normal
-//! (Sutherland, Sproull & Schumacker 1974, p. 21), so that the result depends on the corners
-//! alone and has the polygon's winding.
+//! A quad is cut from its first to its third corner, or the other way if that would turn a triangle
+//! over. One that is not planar may be cut the other way by another program: the file does not
+//! define it. More corners are cut by ear clipping in the plane of Newell's normal (Sutherland,
+//! Sproull & Schumacker 1974, p. 21), so that the result depends on the corners alone and has the
+//! polygon's winding.
 
 use ::glam::{DVec2, DVec3};
 use earcut::Earcut;
 
-/// Corners that a face may have: more would be a mistake, and take the triangulator minutes.
+/// Number of corners that a face may have. More would be an error, and would take the triangulator
+/// minutes.
 pub(super) const MAX_CORNERS: usize = 1 << 20;
 
-/// A triangle of no area: what becomes of a face that has none.
+/// A triangle without area, the result for a face that has none.
 const NOTHING: [usize; 3] = [0, 0, 0];
 
-/// A triangulator whose storage is used again from face to face.
+/// A triangulator whose memory is reused from face to face.
 #[derive(Default)]
 pub(super) struct Triangulator {
     ears: Earcut<f64>,

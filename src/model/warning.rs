@@ -1,11 +1,11 @@
-//! What a model file asks for and the picture will not show.
+//! Warnings: content of a model file that the image will not show.
 
 use std::fmt;
 
-/// Names that one warning lists at most.
+/// Number of names that one warning lists at most.
 const MOST_NAMES: usize = 3;
 
-/// Something in a model file that was left out or replaced, and its effect on the picture.
+/// Content of a model file that was left out or replaced, and the effect on the image.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
 #[non_exhaustive]
 pub enum Warning {
@@ -13,14 +13,14 @@ pub enum Warning {
     Texture {
         /// The material.
         material: String,
-        /// Which texture, and its effect.
+        /// The texture, and its effect.
         what: &'static str,
     },
     /// A material that lets the background through.
     Alpha {
         /// The material.
         material: String,
-        /// How it is see-through in the file.
+        /// The mode of transparency in the file.
         mode: &'static str,
     },
     /// A metal.
@@ -34,7 +34,7 @@ pub enum Warning {
         material: String,
         /// The extension.
         extension: String,
-        /// What the picture lacks.
+        /// The effect that the image lacks.
         effect: &'static str,
     },
     /// A color outside the range of reflectance, clamped.
@@ -52,18 +52,18 @@ pub enum Warning {
         /// The material.
         material: String,
     },
-    /// A material library that is not there.
+    /// A material library that does not exist.
     MissingLibrary {
         /// Its file name.
         name: String,
         /// The file that was perhaps meant.
         near: Option<String>,
     },
-    /// A material library named by an absolute path: that of the author's machine.
+    /// A material library named by an absolute path, which is valid on the author's machine only.
     AbsoluteLibrary {
         /// The path.
         path: String,
-        /// The name that is looked for beside the model.
+        /// The name that is tried beside the model.
         beside: String,
     },
     /// A material of a library that has no name.
@@ -71,27 +71,27 @@ pub enum Warning {
         /// The library and the line.
         at: String,
     },
-    /// Faces of an OBJ file that have no area.
+    /// Faces of an OBJ file with fewer than three corners.
     FewCorners {
-        /// How many.
+        /// Number of faces.
         count: usize,
         /// Line of the first.
         line: usize,
     },
-    /// Faces of an OBJ file that name normals or texture coordinates in a file that has none.
+    /// Faces of an OBJ file that refer to normals or texture coordinates in a file without any.
     NamesNone {
         /// "normal" or "texture coordinate".
         what: &'static str,
         /// Line of the first.
         line: usize,
     },
-    /// A face of an OBJ file that names a texture coordinate that is not there.
+    /// A face of an OBJ file that refers to a texture coordinate that does not exist.
     Coordinate {
         /// Its line.
         line: usize,
-        /// As written: from 1, or negative from the latest.
+        /// The index as written: from 1, or negative from the latest.
         index: i64,
-        /// How many there are.
+        /// Number of those that exist.
         count: i64,
     },
     /// Numbers of a vertex in an OBJ file that are neither position nor color.
@@ -118,10 +118,10 @@ pub enum Warning {
     Degenerate {
         /// The mesh.
         mesh: String,
-        /// How many.
+        /// Number of triangles.
         count: usize,
     },
-    /// Normals that point nowhere, replaced by those of the triangles.
+    /// Normals of zero length, replaced by those of the triangles.
     Normals {
         /// The mesh.
         mesh: String,
@@ -143,10 +143,10 @@ pub enum Warning {
     },
     /// Animation clips.
     Animations {
-        /// How many.
+        /// Number of clips.
         count: usize,
     },
-    /// An instance squashed to nothing.
+    /// An instance scaled to a line or a point.
     Squashed {
         /// The node.
         node: String,
@@ -156,14 +156,14 @@ pub enum Warning {
         /// The lamp.
         lamp: String,
     },
-    /// A node that seems to have been a lamp that did not survive export.
+    /// A node that was probably a lamp before export.
     LostLamp {
         /// The node.
         node: String,
     },
-    /// Scenes beside the one that is shown.
+    /// Scenes besides the one that is shown.
     OtherScenes {
-        /// How many.
+        /// Number of scenes.
         count: usize,
     },
     /// Surfaces to which the file gives no material.
@@ -180,7 +180,7 @@ pub enum Warning {
     ControlCharacters,
     /// A number in place of the text "2.0".
     VersionNumber,
-    /// An extension that may be ignored and is.
+    /// An optional extension that is ignored.
     Extension {
         /// Its name.
         extension: String,
@@ -348,7 +348,7 @@ impl fmt::Display for Warning {
     }
 }
 
-/// A node or object among others.
+/// The name of a node or object, for messages.
 fn called(name: &str) -> String {
     match name {
         "" => "the mesh".to_owned(),

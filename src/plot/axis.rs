@@ -1,43 +1,43 @@
-//! An axis: from values to places on it, and its ticks.
+//! An axis: mapping of values to places, and ticks.
 
-/// What a panel's side measures.
+/// The horizontal or vertical axis of a panel.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Axis {
-    /// What it measures, such as "wavelength".
+    /// Name of the quantity, such as "wavelength".
     pub label: String,
-    /// In which unit; empty if in none.
+    /// Unit of the quantity; empty if it has none.
     pub unit: String,
-    /// How values are spaced.
+    /// Spacing of the values.
     pub scale: Scale,
     /// First and last value: finite, ascending, and above 0 if the scale is logarithmic.
     pub range: [f64; 2],
-    /// Between the ticks of a linear axis; None for 1, 2 or 5 times a power of ten, as fits.
+    /// Distance of the ticks of a linear axis; None for 1, 2 or 5 times a power of ten, as fits.
     pub step: Option<f64>,
 }
 
-/// How values are spaced on an axis.
+/// Spacing of the values on an axis.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Scale {
-    /// Evenly.
+    /// Evenly spaced values.
     Linear,
-    /// By their logarithms. What is not above the first value stands at the beginning.
+    /// Evenly spaced logarithms. Values not above the first are placed at the beginning.
     Log,
 }
 
-/// A mark on an axis.
+/// A tick of an axis.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Tick {
-    /// From 0, the axis' beginning, to 1.
+    /// Place on the axis, from 0, its beginning, to 1.
     pub(super) place: f64,
-    /// None for a minor one.
+    /// Label; None for a minor tick.
     pub(super) label: Option<String>,
 }
 
-/// Decimal exponents that f64 holds at full precision.
+/// Decimal exponents of numbers that f64 holds at full precision.
 const EXPONENTS: [i32; 2] = [-300, 308];
-/// Exponents of the last value of an axis whose labels are written out.
+/// Exponents of the last value of an axis for which labels are written without a power of ten.
 const WRITTEN_OUT: std::ops::RangeInclusive<i32> = -2..=3;
-/// Rounding that is no reason for one more tick.
+/// Rounding error that does not cause one more tick.
 const SLACK: f64 = 1e-9;
 
 impl Axis {
@@ -54,8 +54,8 @@ impl Axis {
         Self::new(label, unit, Scale::Linear, [0.0, top])
     }
 
-    /// A linear axis from 0 to the next 1, 2 or 5 times a power of ten not below `largest`, which is
-    /// finite and above 0: of values that grow it changes seldom.
+    /// A linear axis from 0 to the next 1, 2 or 5 times a power of ten not below `largest`, which
+    /// is finite and above 0. The axis seldom changes while values grow.
     pub fn in_steps(label: &str, unit: &str, largest: f64) -> Self {
         let top = round_up(largest).min(f64::MAX);
         Self::new(label, unit, Scale::Linear, [0.0, top])
@@ -75,12 +75,12 @@ impl Axis {
         let largest = largest.max(least).clamp(1e-290, 1e290);
         let least = least.clamp(1e-290, largest);
         let high = round_up(largest * 1.05);
-        // 1, 2 and 5 are their own inverses but for a power of ten.
+        // 1, 2 and 5 are their own inverses up to a power of ten.
         let low = 1.0 / round_up(1.05 / least);
         Self::new(label, unit, Scale::Log, [low.min(high / 2.0), high])
     }
 
-    /// An axis over a range.
+    /// An axis over a given range.
     pub fn new(label: &str, unit: &str, scale: Scale, range: [f64; 2]) -> Self {
         Self {
             label: label.to_owned(),
@@ -91,7 +91,7 @@ impl Axis {
         }
     }
 
-    /// Where a value lies, from 0 to 1; values beyond the ends lie there.
+    /// Place of a value, from 0 to 1; values beyond an end are placed at that end.
     pub(super) fn place(&self, value: f64) -> f64 {
         let [low, high] = self.range;
         let place = match self.scale {
@@ -107,13 +107,12 @@ impl Axis {
         place.clamp(0.0, 1.0)
     }
 
-    /// Whether a value is too small to be seen on the axis.
+    /// Whether a value is too small to be visible on the axis.
     pub(super) fn hides(&self, value: f64) -> bool {
         self.scale == Scale::Log && value <= self.range[0]
     }
 
-    /// What stands beside the axis: its label, and the unit with the power of ten that its ticks'
-    /// labels lack.
+    /// Title of the axis: its name, and the unit with the power of ten that the labels leave out.
     pub(super) fn title(&self) -> String {
         match self.measure().as_str() {
             "" => self.label.clone(),
@@ -121,7 +120,7 @@ impl Axis {
         }
     }
 
-    /// The unit with the power of ten that the ticks' labels lack.
+    /// The unit, with the power of ten that the labels leave out.
     pub(super) fn measure(&self) -> String {
         let factor = match (self.scale, self.factor()) {
             (Scale::Log, _) | (_, 0) => String::new(),
@@ -130,7 +129,7 @@ impl Axis {
         format!("{factor}{}", self.unit).trim().to_owned()
     }
 
-    /// Ticks, about `most` of them with labels.
+    /// Ticks, of which about `most` have labels.
     pub(super) fn ticks(&self, most: usize) -> Vec<Tick> {
         let most = most.max(2);
         let ticks = match self.scale {
@@ -144,7 +143,7 @@ impl Axis {
         ticks.into_iter().map(tick).collect()
     }
 
-    /// Exponent of the power of ten that labels of a linear axis lack.
+    /// Exponent of the power of ten that the labels of a linear axis leave out.
     fn factor(&self) -> i32 {
         let exponent = exponent(self.range[0].abs().max(self.range[1].abs()));
         if WRITTEN_OUT.contains(&exponent) {
@@ -178,7 +177,7 @@ impl Axis {
         let inside = |value: f64| value >= low * (1.0 - SLACK) && value <= high * (1.0 + SLACK);
         let decades = exponent(low)..=exponent(high);
         let span = high.log10() - low.log10();
-        // Within half a decade 1, 2 and 5 are too few, and logarithms nearly straight.
+        // Within half a decade 1, 2 and 5 are too few labels, and the logarithm is nearly linear.
         if span < 0.5 && self.factor() == 0 {
             return self.linear_ticks(most);
         }
@@ -196,7 +195,7 @@ impl Axis {
                 };
                 let label = labelled.then(|| {
                     if written {
-                        // Through its text: 3 · 10⁻² is no number that f64 holds.
+                        // By way of text, because 3 · 10⁻² has no exact f64.
                         let decimals = (-exponent).max(0) as usize;
                         format!("{value:.decimals$}")
                     } else {
@@ -221,7 +220,7 @@ fn power_label(digit: i32, exponent: i32) -> String {
     }
 }
 
-/// ⌊log₁₀ |value|⌋, among the [`EXPONENTS`].
+/// ⌊log₁₀ |value|⌋, limited to [`EXPONENTS`].
 fn exponent(value: f64) -> i32 {
     let exponent = (value.abs().max(f64::MIN_POSITIVE).log10() + SLACK).floor() as i32;
     exponent.clamp(EXPONENTS[0], EXPONENTS[1])
@@ -231,7 +230,7 @@ fn power(exponent: i32) -> f64 {
     10f64.powi(exponent)
 }
 
-/// The least of 1, 2 and 5 times a power of ten that is not below a value above 0.
+/// The smallest of 1, 2 and 5 times a power of ten that is not below `value`, which is above 0.
 pub fn round_up(value: f64) -> f64 {
     let power = power(exponent(value));
     let digit = [1.0, 2.0, 5.0, 10.0]
@@ -240,14 +239,14 @@ pub fn round_up(value: f64) -> f64 {
     digit.unwrap_or(10.0) * power
 }
 
-/// An exponent as it stands above the line, such as ⁻¹² for −12.
+/// An exponent in superscript, such as ⁻¹² for −12.
 pub fn superscript(exponent: i32) -> String {
     let raised = |sign: char| match sign {
         '-' => '⁻',
         '1' => '¹',
         '2' => '²',
         '3' => '³',
-        // The others stand in a row in Unicode.
+        // The other superscript digits are consecutive in Unicode.
         digit => char::from_u32('⁰' as u32 + digit as u32 - '0' as u32).unwrap_or(digit),
     };
     exponent.to_string().chars().map(raised).collect()

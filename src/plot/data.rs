@@ -1,87 +1,87 @@
-//! What is to be shown: panels, axes, curves and points.
+//! Data of a plot: panels, axes, curves and points.
 
 use super::Axis;
 
-/// An sRGB colour of eight bits.
+/// An sRGB color of eight bits per channel.
 pub type Color = [u8; 3];
 
-/// What is to be shown.
+/// A plot: caption and panels.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Plot {
-    /// Lines above everything; the first is the title.
+    /// Lines above the panels; the first is the title.
     pub caption: Vec<String>,
-    /// Panels, side by side, of equal width. The legend is of all their series.
+    /// Panels side by side, of equal width. The legend lists the series of all of them.
     pub panels: Vec<Panel>,
 }
 
-/// Axes and what is drawn between them.
+/// Two axes, and the series between them.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Panel {
-    /// A line above it; empty for none.
+    /// Line above the panel; empty for none.
     pub title: String,
     /// The horizontal axis.
     pub x: Axis,
     /// The vertical axis.
     pub y: Axis,
-    /// Parts of the background that have a colour, ascending and without gaps.
+    /// Colored parts of the background, ascending and without gaps.
     pub tints: Vec<Tint>,
-    /// Curves, the first lowermost.
+    /// Series, drawn in this order.
     pub series: Vec<Series>,
-    /// A remark in the middle.
+    /// A note in the middle of the panel.
     pub note: Option<String>,
 }
 
-/// A part of a panel's background.
+/// A colored part of a panel's background.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Tint {
-    /// Where it begins and ends on the horizontal axis.
+    /// Its beginning and end on the horizontal axis.
     pub range: [f64; 2],
-    /// Its colour.
+    /// Its color.
     pub color: Color,
 }
 
-/// A curve, or points.
+/// A curve, or a set of points.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Series {
-    /// Its name in the legend, where a name stands once.
+    /// Its name in the legend. A name that occurs twice is listed once.
     pub name: String,
-    /// Its colour.
+    /// Its color.
     pub color: Color,
-    /// How it is drawn.
+    /// How the series is drawn.
     pub stroke: Stroke,
-    /// Values on both axes, in the order in which they are joined.
+    /// Values on both axes, in the order in which they are connected.
     pub points: Vec<[f64; 2]>,
-    /// What is said of each dot, in the order of the points; empty to say nothing.
+    /// Labels of the dots, in the order of the points; empty for none.
     pub remarks: Vec<Remark>,
 }
 
 impl Series {
-    /// Whether its points are not joined.
+    /// Whether the points are not connected.
     pub(super) fn is_dotted(&self) -> bool {
         matches!(self.stroke, Stroke::Dots(_) | Stroke::Rings(_))
     }
 }
 
-/// What is said of a dot.
+/// The label of a dot.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Remark {
-    /// Stands beside it where there is room.
+    /// Text beside the dot.
     pub label: String,
-    /// Stands there instead where there is less.
+    /// Shorter text, used if there is no room for the other.
     pub short: String,
-    /// Is told by whoever shows the drawing when the dot is pointed at.
+    /// Tooltip, shown by a viewer when the pointer is on the dot.
     pub tip: String,
 }
 
-/// How a series is drawn. Widths and radii are those of a font of 16 pixels, and scale with it.
+/// Stroke of a series. Widths and radii are for a font of 16 pixels, and scale with the font.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Stroke {
     /// A line of this width.
     Solid(f64),
-    /// A broken line of this width.
+    /// A dashed line of this width.
     Dashed(f64),
-    /// Dots of this radius, not joined.
+    /// Dots of this radius, not connected.
     Dots(f64),
-    /// Rings of this radius, not joined.
+    /// Rings of this radius, not connected.
     Rings(f64),
 }

@@ -1,4 +1,4 @@
-//! A drawing: what a plot looks like, for whoever writes or paints it.
+//! A drawing: the marks of a plot on a page, to be written as SVG or painted.
 
 use super::Color;
 
@@ -7,40 +7,40 @@ use super::Color;
 pub struct Drawing {
     /// Width and height, pixels.
     pub size: [f64; 2],
-    /// Colour of the page.
+    /// Color of the page.
     pub paper: Color,
-    /// How far the page hides what it is laid on, up to 1.
+    /// Opacity of the page over what is below it, up to 1.
     pub opacity: f64,
-    /// What it shows, in a line.
+    /// Title: one line on what the drawing shows.
     pub title: String,
-    /// Marks, the first lowermost.
+    /// Marks in groups, drawn in this order.
     pub groups: Vec<Group>,
 }
 
 /// Marks that belong together.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Group {
-    /// "caption", "legend" or, counted from 1, "panel-1" and so on.
+    /// "caption", "legend", or "panel-1", "panel-2" and so on.
     pub id: String,
-    /// The first is lowermost.
+    /// Marks, drawn in this order.
     pub marks: Vec<Mark>,
 }
 
-/// One thing to draw.
+/// One element of a drawing.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Mark {
-    /// What it stands for: "curve NAME", "x-label" and the like.
+    /// What the mark represents: "curve NAME", "x-label" and the like.
     pub class: String,
-    /// Its colour.
+    /// Its color.
     pub color: Color,
     /// Its shape.
     pub shape: Shape,
-    /// What is told when it is pointed at.
+    /// Tooltip, if it has one.
     pub tip: Option<String>,
 }
 
 impl Mark {
-    /// A mark of which nothing is told.
+    /// A mark without a tooltip.
     pub(super) fn new(class: &str, color: Color, shape: Shape) -> Self {
         Self {
             class: class.to_owned(),
@@ -51,7 +51,7 @@ impl Mark {
     }
 }
 
-/// The shape of a mark, pixels.
+/// The shape of a mark, in pixels.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Shape {
     /// A filled rectangle.
@@ -61,13 +61,13 @@ pub enum Shape {
         /// Width and height.
         size: [f64; 2],
     },
-    /// Straight lines from point to point.
+    /// Straight lines between consecutive points.
     Line {
         /// The points.
         points: Vec<[f64; 2]>,
         /// Width of the stroke.
         width: f64,
-        /// Length of dashes and gaps, if it is broken.
+        /// Length of dashes and gaps; None for a solid line.
         dash: Option<f64>,
     },
     /// A filled circle.
@@ -77,7 +77,7 @@ pub enum Shape {
         /// Its radius.
         radius: f64,
     },
-    /// A circle.
+    /// An unfilled circle.
     Ring {
         /// Its center.
         center: [f64; 2],
@@ -93,22 +93,22 @@ pub enum Shape {
 /// A line of text on the page.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Text {
-    /// A point of its base line, pixels.
+    /// A point of its baseline, pixels.
     pub at: [f64; 2],
-    /// Which part of the text is there.
+    /// The part of the text that is at that point.
     pub anchor: Anchor,
-    /// Whether it runs upwards.
+    /// Whether the text runs upward.
     pub upwards: bool,
     /// Size of the font, pixels.
     pub size: f64,
     /// Whether it is bold.
     pub bold: bool,
-    /// What it says.
+    /// The text.
     pub words: String,
 }
 
 impl Text {
-    /// Text that begins at a point.
+    /// Text that begins at `at`.
     pub(super) fn new(at: [f64; 2], size: f64, words: &str) -> Self {
         Self {
             at,
@@ -121,7 +121,7 @@ impl Text {
     }
 }
 
-/// Which part of a text is at its point.
+/// The part of a text that is at its point.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Anchor {
     /// Its beginning.

@@ -1,15 +1,15 @@
-//! A plot to a list of marks on a page.
+//! Layout of a plot on a page, as a list of marks.
 //!
-//! Text is measured by guess, [`CHARACTER`] of its size a character: whoever draws has fonts of
-//! their own. Space is left for a wide one.
+//! The width of text is estimated, [`CHARACTER`] of its size per character, because viewers use
+//! fonts of their own. There is room for a wide one.
 
 use super::Plot;
 use super::drawing::{Drawing, Group};
-use super::heading::{caption, legend};
+use super::legend::{caption, legend};
 use super::marks::{PAPER, Page, Rect};
-use super::sheet::Sheet;
+use super::panel::PanelLayout;
 
-/// Places a plot on a page.
+/// Lays out a plot on a page.
 pub fn lay_out(plot: &Plot, page: Page) -> Drawing {
     let [width, height] = page.size;
     let font = page.font;
@@ -25,7 +25,7 @@ pub fn lay_out(plot: &Plot, page: Page) -> Drawing {
         };
         groups.push(Group {
             id: format!("panel-{}", i + 1),
-            marks: Sheet::new(panel, place, font).labelled(),
+            marks: PanelLayout::new(panel, place, font).labelled(),
         });
     }
     Drawing {

@@ -1,9 +1,9 @@
-//! Colours and sizes that all of a page shares, and marks that stand for text and curves.
+//! Colors and sizes shared by the whole page, and marks for text and strokes.
 
 use super::drawing::{Anchor, Mark, Shape, Text};
 use super::{Color, Series, Stroke};
 
-/// The page that a plot is drawn on.
+/// The page on which a plot is drawn.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Page {
     /// Width and height, pixels.
@@ -14,15 +14,15 @@ pub struct Page {
 
 pub(super) const PAPER: Color = [255, 255, 255];
 pub(super) const INK: Color = [34, 34, 34];
-/// Guessed width of a character, in sizes of the font.
+/// Estimated width of a character, in font sizes.
 pub(super) const CHARACTER: f64 = 0.58;
 
-/// Width of the stroke of rings, in the usual font.
+/// Width of the stroke of rings, for a font of [`USUAL_FONT`].
 const RING: f64 = 1.8;
-/// The font that widths of strokes are given for, pixels.
+/// Font size for which widths of strokes are given, pixels.
 pub(super) const USUAL_FONT: f64 = 16.0;
 
-/// A line through points on the page, or dots there, as a series is drawn.
+/// The marks of a series through or at points on the page.
 pub(super) fn strokes(class: &str, series: &Series, points: &[[f64; 2]], font: f64) -> Vec<Mark> {
     let mark = |shape| Mark::new(class, series.color, shape);
     let scale = font / USUAL_FONT;

@@ -1,11 +1,11 @@
-//! Quantities as people read them: three digits, a unit, a true minus sign.
+//! Quantities as text: three digits, a unit, a true minus sign.
 
 use super::superscript;
 
-/// Of what does not exist, or was not measured.
+/// Text for a value that does not exist or was not measured.
 pub const NOTHING: &str = "–";
 
-/// Three digits, without zeros at the end; a power of ten far from 1. Such as 0.012, 3.2·10⁻⁵.
+/// Three digits without trailing zeros, with a power of ten if far from 1: 0.012, 3.2·10⁻⁵.
 pub fn number(value: f64) -> String {
     if value.is_nan() {
         return "no number".to_owned();
@@ -18,7 +18,7 @@ pub fn number(value: f64) -> String {
     if size.is_infinite() {
         return format!("{sign}∞");
     }
-    // Rounded to three digits first, so that 999.9 is 1000 and not 1·10³ or 999.9.
+    // Rounded to three digits first, so that 999.9 becomes 1000 and not 1·10³ or 999.9.
     let rounded = format!("{size:.2e}");
     let (digits, exponent) = rounded.split_once('e').unwrap_or((&rounded, "0"));
     let exponent: i32 = exponent.parse().unwrap_or(0);
@@ -27,19 +27,19 @@ pub fn number(value: f64) -> String {
         return format!("{sign}{digits}·10{}", superscript(exponent));
     }
     let decimals = usize::try_from(2 - exponent).unwrap_or(0);
-    // The rounded digits, and not the value, so that four and five digits end in zeros.
+    // From the rounded digits, so that numbers of four and five digits end in zeros.
     let rounded: f64 = rounded.parse().unwrap_or(size);
     let text = format!("{rounded:.decimals$}");
     format!("{sign}{}", without_zeros(&text))
 }
 
-/// Seconds of wall clock, such as 4.1 ms.
+/// A time in seconds, such as 4.1 ms.
 pub fn time(seconds: f64) -> String {
     let (unit, name) = unit_of_time(seconds);
     with_unit(seconds / unit, &format!(" {name}"))
 }
 
-/// The unit in which a time is said, in seconds, and its name.
+/// The unit for a time, in seconds, and its name.
 pub fn unit_of_time(seconds: f64) -> (f64, &'static str) {
     match seconds.abs() {
         s if s >= 7200.0 => (3600.0, "h"),
@@ -51,7 +51,7 @@ pub fn unit_of_time(seconds: f64) -> (f64, &'static str) {
     }
 }
 
-/// A part of a whole, such as 12 %.
+/// A share, such as 12 %.
 pub fn percent(part: f64) -> String {
     with_unit(part * 100.0, " %")
 }
@@ -66,7 +66,7 @@ pub fn mebibytes(mib: f64) -> String {
     with_unit(mib, " MiB")
 }
 
-/// The size of files, in thousands.
+/// A file size, in multiples of 1000 bytes.
 pub fn bytes(count: u64) -> String {
     let count = count as f64;
     match count {
@@ -77,13 +77,13 @@ pub fn bytes(count: u64) -> String {
     }
 }
 
-/// What is no number has no unit either.
+/// A number with its unit; no unit if it is not a number.
 fn with_unit(value: f64, unit: &str) -> String {
     let unit = if value.is_nan() { "" } else { unit };
     number(value) + unit
 }
 
-/// Digits without zeros at their end, and without a point there.
+/// Digits without trailing zeros, and without a trailing point.
 pub fn without_zeros(digits: &str) -> &str {
     if digits.contains('.') {
         digits.trim_end_matches('0').trim_end_matches('.')

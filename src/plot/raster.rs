@@ -1,16 +1,16 @@
-//! Drawings as pixels: an SVG text painted at any size, sharp, with the same bytes everywhere.
+//! Drawings as pixels: SVG text painted at any size, with the same bytes everywhere.
 //!
-//! Text is set in the font that the program carries, `src/plot/font/` (ASCII, Latin-1 and the signs
-//! of formulas from DejaVu Sans, regular and bold; written by `scripts/make-font`), whatever family
-//! the SVG names, and no file is opened. A character that the font lacks becomes its empty box.
-//! Painting runs on one thread, and which instructions it uses is settled when the program is
-//! compiled, not by the processor that it runs on.
+//! Text is set in the font that the program carries, `src/plot/font/` (ASCII, Latin-1 and
+//! mathematical characters of DejaVu Sans, regular and bold; written by `scripts/make-font`),
+//! whatever family the SVG names, and no file is opened. A character that the font lacks becomes an
+//! empty box. Painting runs on one thread, and its instructions are chosen at compile time, not by
+//! the processor at hand.
 
 use resvg::{tiny_skia, usvg};
 use std::sync::{Arc, LazyLock};
 use usvg::fontdb::{Database, Weight};
 
-/// Most pixels of a raster: 2²⁷, a sheet of 8192 x 16384.
+/// Largest number of pixels of a raster: 2²⁷, a sheet of 8192 x 16384.
 pub const MOST_PIXELS: u64 = 1 << 27;
 
 const FACES: [&[u8]; 2] = [
@@ -18,7 +18,7 @@ const FACES: [&[u8]; 2] = [
     include_bytes!("font/bold.ttf"),
 ];
 
-/// The font, read once.
+/// The font, parsed once.
 static FONT: LazyLock<Arc<Database>> = LazyLock::new(|| {
     let mut database = Database::new();
     for face in FACES {
@@ -27,21 +27,21 @@ static FONT: LazyLock<Arc<Database>> = LazyLock::new(|| {
     Arc::new(database)
 });
 
-/// Painted pixels, in front of whatever they are laid over.
+/// Painted pixels with opacity.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Raster {
-    /// Pixels in a row.
+    /// Width in pixels.
     pub width: u32,
-    /// Rows.
+    /// Height in pixels.
     pub height: u32,
-    /// Red, green, blue and opacity, four bytes a pixel, the colours not multiplied by opacity.
+    /// Red, green, blue and opacity, four bytes per pixel; colors are not multiplied by opacity.
     pub rgba8: Vec<u8>,
 }
 
 impl Raster {
-    /// Lays it over a picture of three bytes a pixel and `width` pixels a row, its upper left pixel
-    /// at `corner` (column, row). What reaches beyond the picture is left out. Values are mixed as
-    /// they are displayed, as browsers do.
+    /// Blends the raster over an image of three bytes per pixel and `width` pixels per row, with
+    /// its upper left pixel at `corner` (column, row). Parts outside the image are dropped. Display
+    /// values are mixed, as browsers do.
     pub fn lay_over(&self, rgb8: &mut [u8], width: u32, corner: [u32; 2]) {
         let [left, top] = corner.map(|pixels| pixels as usize);
         let width = width as usize;
@@ -60,8 +60,8 @@ impl Raster {
     }
 }
 
-/// Paints an SVG text to fill `width` x `height` pixels. None if it is no SVG, a side is 0 or there
-/// are more than [`MOST_PIXELS`].
+/// Paints SVG text to fill `width` x `height` pixels. None if it is not SVG, if a side is 0, or if
+/// there are more than [`MOST_PIXELS`].
 pub fn paint(svg: &str, width: u32, height: u32) -> Option<Raster> {
     if u64::from(width) * u64::from(height) > MOST_PIXELS {
         return None;
@@ -89,7 +89,8 @@ pub fn paint(svg: &str, width: u32, height: u32) -> Option<Raster> {
     })
 }
 
-/// Of families only the weight is looked at, and images that a text names are not opened.
+/// Options of the SVG parser: only the weight of a font family counts, and images that a text names
+/// are not opened.
 fn options() -> usvg::Options<'static> {
     usvg::Options {
         fontdb: FONT.clone(),
@@ -109,7 +110,7 @@ fn options() -> usvg::Options<'static> {
     }
 }
 
-/// The characters of `text` that the font lacks: those painted as its box is.
+/// The characters of `text` that the font lacks, found by comparing them with its box.
 #[cfg(test)]
 pub(super) fn missing(text: &str) -> Vec<char> {
     const SIDE: u32 = 40;
@@ -121,7 +122,7 @@ pub(super) fn missing(text: &str) -> Vec<char> {
         );
         paint(&svg, SIDE, SIDE)
     };
-    // For private use: no font of ours has it.
+    // A private-use character, which the font does not have.
     let boxed = painted('\u{e000}');
     text.chars().filter(|c| painted(*c) == boxed).collect()
 }

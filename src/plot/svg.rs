@@ -110,7 +110,7 @@ fn text_element(class: &str, color: &str, text: &Text) -> String {
     )
 }
 
-/// Hundredths of a pixel; 0 for what is no number.
+/// A number to hundredths of a pixel; 0 if it is not finite.
 fn number(value: f64) -> String {
     let text = format!("{:.2}", if value.is_finite() { value } else { 0.0 });
     match text.trim_end_matches('0').trim_end_matches('.') {
@@ -123,7 +123,7 @@ fn hex([r, g, b]: Color) -> String {
     format!("#{r:02x}{g:02x}{b:02x}")
 }
 
-/// Text as XML 1.0 can hold it: control characters, which it cannot, become U+FFFD.
+/// Text for XML 1.0: markup is escaped, control characters, which XML cannot hold, become U+FFFD.
 pub fn escaped(text: &str) -> String {
     let mut out = String::with_capacity(text.len());
     for character in text.chars() {

@@ -10,10 +10,10 @@ use crate::film::{Channels, SILENT};
 use crate::frame::Frame;
 use crate::relativity::Event;
 use crate::render::{self, Enough, LabPath, View, development};
-use crate::scene::Scene;
+use crate::scene::{Lobe, Scene};
 use crate::shade::{Radiance, ShadeScratch};
 use crate::shot::{Accuracy, Spectra};
-use crate::trace::{Branch, Node, Scratch, Seen, ShadeTrees, Surface, Term};
+use crate::trace::{Branch, Node, Scratch, Seen, ShadeTrees, Surface};
 use glam::DVec3;
 use serde::Serialize;
 
@@ -220,11 +220,9 @@ fn chain(view: &View<'_>, scene: &Scene, nodes: &[Node], direction: DVec3) -> Ve
             },
             Some(branch) => ProbeNode {
                 parent: Some(branch.parent),
-                by: Some(match branch.term {
-                    Term::Mirror => "mirror",
-                    Term::Refraction => "refraction",
-                }),
-                coefficient: branch.share * weight(scene, nodes, &branch),
+                by: lobe(scene, nodes, &branch).map(|lobe| lobe.kind.key()),
+                coefficient: branch.share
+                    * lobe(scene, nodes, &branch).map_or(0.0, |lobe| lobe.reflectance.weight),
                 doppler: branch.doppler,
                 hit,
             },
@@ -233,17 +231,13 @@ fn chain(view: &View<'_>, scene: &Scene, nodes: &[Node], direction: DVec3) -> Ve
     chain
 }
 
-/// Weight of the term that a branch leaves by.
-fn weight(scene: &Scene, nodes: &[Node], branch: &Branch) -> f64 {
+/// The lobe that a branch leaves by.
+fn lobe<'a>(scene: &'a Scene, nodes: &[Node], branch: &Branch) -> Option<&'a Lobe> {
     let Seen::Surface(surface) = nodes[branch.parent as usize].seen else {
-        return 0.0;
+        return None;
     };
     let material = &scene.materials[surface.material as usize];
-    let term = match branch.term {
-        Term::Mirror => material.mirror.as_ref(),
-        Term::Refraction => material.refraction.as_ref().map(|r| &r.transmittance),
-    };
-    term.map_or(0.0, |term| term.weight)
+    material.bsdf.lobes().get(branch.lobe as usize)
 }
 
 fn first_hit(

@@ -2,7 +2,7 @@
 
 use super::Member;
 use crate::frame::{ActiveEffects, Frame, Sensor};
-use crate::scene::Scene;
+use crate::scene::{Material, Scene};
 use crate::shade::{Settings, Shader};
 use crate::shot::{Accuracy, Effects, SensorColor, Spectra, Switch};
 use crate::trace::{Spacetime, Stage, Tracer};
@@ -151,10 +151,11 @@ impl<'a> View<'a> {
         };
         let surfaces = |view: &Self| {
             let materials = view.scene.materials.iter();
-            let terms = materials.map(|m| (m.takes_lamps(), m.passes_light_on()));
-            terms.collect::<Vec<_>>()
+            let lobes = materials.map(|m| m.bsdf.lobes().iter().map(|lobe| lobe.kind));
+            lobes.map(Vec::from_iter).collect::<Vec<_>>()
         };
-        let passing = surfaces(self).iter().any(|(_, passes_on)| *passes_on);
+        let mut materials = self.scene.materials.iter();
+        let passing = materials.any(Material::passes_light_on);
         let branches = |view: &Self| passing.then_some((view.bounces, view.cutoff));
         let shadows = |view: &Self| !view.scene.lights.is_empty() && view.effects.shadows;
         of_scene(self) == of_scene(other)

@@ -1,4 +1,4 @@
-//! Bodies: meshes, and where their instances stand in the rest frames of worldlines.
+//! Bodies: meshes, and the placement of their instances in the rest frames of worldlines.
 
 use super::library::Library;
 use crate::frame::{Array, Model};
@@ -6,7 +6,7 @@ use crate::model::Mesh;
 use glam::{DAffine3, DVec3, Vec3};
 use std::sync::Arc;
 
-/// One placement of a mesh.
+/// An instance of a mesh.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Instance {
     /// Index into [`Geometry::meshes`].
@@ -17,40 +17,42 @@ pub struct Instance {
     pub model: u32,
     /// Index into the scene's materials.
     pub material: u32,
-    /// Whether the back of a triangle is seen.
+    /// Whether the back of a triangle is visible.
     pub double_sided: bool,
-    /// From the mesh's coordinates to its worldline's rest frame; invertible.
+    /// Rest-frame coordinates of its worldline from mesh coordinates; invertible.
     pub rest_from_mesh: DAffine3,
 }
 
-/// Everything that rays can hit.
+/// All bodies that rays can hit.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Geometry {
-    /// Shared by their instances.
+    /// Meshes, shared by their instances.
     pub meshes: Vec<Arc<Mesh>>,
-    /// In the order of the names of their worldlines, then of their models: what does not depend on
-    /// the order of the shot. Where two bodies are met at one place, the first of them is seen.
+    /// Instances, ordered by the names of their worldlines, then of their models, which does not
+    /// depend on the order of the shot. Where two bodies are hit at the same place, the first one
+    /// is seen.
     pub instances: Vec<Instance>,
-    /// What they were made by.
+    /// The arrangement from which the instances were made.
     pub(super) arrangement: Arrangement,
 }
 
-/// How the models of a shot become bodies in one image; lists by model in the order of the shot.
+/// How the models of a shot become bodies in one image. Lists are by model, in the order of the
+/// shot.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub(super) struct Arrangement {
     pub(super) placing: Vec<Placing>,
-    /// The models in the order of their bodies.
+    /// Models in the order of their bodies.
     pub(super) order: Vec<usize>,
-    /// Indices of their worldlines.
+    /// Index of the worldline of each model.
     pub(super) worldlines: Vec<u32>,
-    /// Indices of each model's own materials.
+    /// Indices of the materials of each model.
     pub(super) materials: Vec<Vec<u32>>,
-    /// By material, whether it is a boundary of glass. It has two sides whatever its file says, or
-    /// light that enters would not come out.
+    /// For each material, whether it is a boundary of glass. Such a boundary has two sides whatever
+    /// its file says: light that enters would not get out otherwise.
     pub(super) glass: Vec<bool>,
 }
 
-/// Where a model stands in one image: model to rest frame, and the steps of its array.
+/// Placement of a model in one image: rest frame from model, and the steps of its array.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Placing {
     pub(super) rest_from_model: DAffine3,
@@ -73,7 +75,7 @@ impl Placing {
         }
     }
 
-    /// Displacements of the array's copies, x running fastest; one of zero without an array.
+    /// Displacements of the copies of the array, x running fastest; a single zero without an array.
     pub(super) fn copies(&self) -> impl Iterator<Item = DVec3> + '_ {
         let Array {
             count,
@@ -95,20 +97,21 @@ impl Placing {
     }
 }
 
-/// A point of a body's surface, in its worldline's rest frame.
+/// A point of a body's surface, in the rest frame of its worldline.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SurfacePoint {
-    /// Position, from the triangle's vertices: its error is that of the mesh, however far the
-    /// ray came.
+    /// Position, computed from the triangle's vertices: its error is that of the mesh, however far
+    /// the ray came.
     pub position: DVec3,
     /// Unit normal of the triangle, by its winding.
     pub flat_normal: DVec3,
-    /// Unit normal interpolated between the vertices; the flat one without vertex normals.
+    /// Unit normal interpolated between the vertices; the flat normal if there are no vertex
+    /// normals.
     pub normal: DVec3,
-    /// How far the smooth surface that the vertex normals describe stands off the triangle here;
-    /// zero without vertex normals, and where that surface is hollow.
+    /// Offset from the triangle to the smooth surface that the vertex normals describe; zero
+    /// without vertex normals, and where that surface is concave.
     pub bulge: DVec3,
-    /// A distance that surely separates a point from the surface it was computed on.
+    /// A distance that is certain to separate a point from the surface on which it was computed.
     pub clearance: f64,
 }
 
@@ -172,7 +175,7 @@ impl Geometry {
         );
         // A mirrored instance turns its triangles over; the normal stays on the mesh's front.
         let handed = place.matrix3.determinant().signum();
-        // Scaled first: products of the edges of the smallest bodies would be zero.
+        // Scaled first: products of the edges of the smallest bodies would underflow.
         let unit = |edge: DVec3| edge / edge.abs().max_element();
         let flat_normal = unit(ab).cross(unit(ac)).normalize_or(DVec3::Y) * handed;
         let inverse_transpose = place.matrix3.inverse().transpose();
@@ -190,7 +193,7 @@ impl Geometry {
         let bulge = normals.map_or(DVec3::ZERO, |normals| {
             bulge(position, places, normals, weights)
         });
-        // 1e3 roundings of the largest coordinate that took part.
+        // 1e3 roundings of the largest coordinate involved.
         let size = position.abs().max_element()
             + place.translation.abs().max_element()
             + ab.abs().max_element().max(ac.abs().max_element());
@@ -204,9 +207,9 @@ impl Geometry {
     }
 }
 
-/// From a point of a triangle to the smooth surface above it: the point is put on the planes that
-/// the vertex normals stand on, where they lie above it, and these are weighted as the vertices
-/// are (Hanika 2021, Hacking the Shadow Terminator).
+/// The offset from a point of a triangle to the smooth surface above it: the point is projected
+/// onto the planes of the vertex normals where they lie above it, and the projections are weighted
+/// as the vertices are (Hanika 2021, Hacking the Shadow Terminator).
 fn bulge(position: DVec3, corners: [DVec3; 3], normals: [DVec3; 3], weights: [f64; 3]) -> DVec3 {
     let lift = |i: usize| {
         let below = (position - corners[i]).dot(normals[i]).min(0.0);
@@ -215,7 +218,7 @@ fn bulge(position: DVec3, corners: [DVec3; 3], normals: [DVec3; 3], weights: [f6
     lift(0) + lift(1) + lift(2)
 }
 
-/// The number of a mesh among those known; models of one file share theirs.
+/// The index of a mesh among those known; models of one file share theirs.
 fn number_of(known: &mut Vec<Arc<Mesh>>, mesh: &Arc<Mesh>) -> u32 {
     let number = known
         .iter()

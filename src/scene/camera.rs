@@ -1,27 +1,26 @@
-//! The camera: an event and axes in its worldline's rest frame.
+//! The camera: an event and axes in the rest frame of its worldline.
 
 use super::projection::Projection;
 use crate::frame::{Aim, Frame};
 use crate::relativity::{Event, Worldline};
 use glam::{DMat3, DMat4, DVec3};
 
-/// A camera at its exposure.
+/// The camera at its exposure.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Camera {
     /// Index into the scene's worldlines.
     pub worldline: usize,
-    /// The exposure, in that worldline's rest frame.
+    /// The event of the exposure, in the rest frame of that worldline.
     pub event: Event,
     /// Right, up and back, as columns; orthonormal.
     pub axes: DMat3,
-    /// How image points become directions about those axes.
+    /// Map from image points to directions about those axes.
     pub projection: Projection,
 }
 
 impl Camera {
-    /// The map from the lab to camera space as image files have it: x right, y up, z forward.
-    /// It exists where the camera rests in the lab (`worldline`); to a moving camera, each lab
-    /// point is elsewhere at each time.
+    /// Camera space, as image files define it (x right, y up, z forward), from the lab. None if the
+    /// camera moves in the lab (`worldline`): each lab point then has another place at each time.
     pub fn camera_from_lab(&self, worldline: &Worldline) -> Option<DMat4> {
         worldline.celerity.is_rest().then(|| {
             let [right, up, back] = [self.axes.x_axis, self.axes.y_axis, self.axes.z_axis];
@@ -31,18 +30,19 @@ impl Camera {
         })
     }
 
-    /// The unit direction in which an image point is seen, in the camera's rest frame; None where
-    /// the projection looks nowhere. `point` is in fractions of the image, from 0 at the left and
-    /// top to 1.
+    /// The unit direction, in the camera's rest frame, in which an image point is seen; None where
+    /// the projection has no ray. `point` is in fractions of the image, from 0 at the left and top
+    /// to 1.
     #[inline(always)]
     pub fn looks_along(&self, point: [f64; 2]) -> Option<DVec3> {
         let towards = self.projection.towards(point)?;
         Some((self.axes * towards).normalize())
     }
 
-    /// The image point in which something in a direction of the camera's rest frame (any length) is
-    /// seen, the inverse of [`Camera::looks_along`]; also outside of the image. None where there is
-    /// none. Of the points on both sides of a panorama's seam it is the one nearer to `near`.
+    /// The image point at which something in a direction (of any length, in the camera's rest
+    /// frame) is seen, the inverse of [`Camera::looks_along`], also outside of the image; None if
+    /// there is none. Of the points on both sides of a panorama's seam it is the one nearer to
+    /// `near`.
     pub fn image_point(&self, direction: DVec3, near: [f64; 2]) -> Option<[f64; 2]> {
         self.projection
             .point_of(self.axes.transpose() * direction, near)
@@ -83,8 +83,8 @@ fn towards(direction: DVec3) -> (f64, f64) {
     (yaw, direction.y.atan2(level))
 }
 
-/// Right, up and back of a camera turned by yaw, then pitch, then roll (clockwise, as seen by
-/// who looks through it).
+/// Right, up and back of a camera turned by yaw, then pitch, then roll (clockwise, as seen through
+/// the camera).
 fn axes(yaw: f64, pitch: f64, roll: f64) -> DMat3 {
     DMat3::from_rotation_y(-yaw) * DMat3::from_rotation_x(pitch) * DMat3::from_rotation_z(-roll)
 }

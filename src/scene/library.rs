@@ -1,4 +1,4 @@
-//! Everything a shot reads from other files, read once: model files, measured spectra, skies.
+//! All files that a shot names, read once: model files, measured spectra, skies, stars.
 
 use super::sky::{SkyImage, Star, Stars, random_stars};
 use crate::model::{self, Mesh, Model, Warning};
@@ -11,7 +11,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-/// Longest file of a measured spectrum or of stars, bytes.
+/// Size of the largest file of a measured spectrum or of stars, bytes.
 const LARGEST_TABLE: u64 = 64 << 20;
 
 /// The files of a shot.
@@ -27,17 +27,17 @@ pub struct Library {
 #[derive(Debug)]
 pub(super) struct Loaded {
     pub(super) file: Model,
-    /// Its meshes, to be shared.
+    /// Its meshes, shared with the scenes.
     pub(super) meshes: Vec<Arc<Mesh>>,
 }
 
 impl Loaded {
-    /// Whether the file gives some surfaces no material.
+    /// Whether the file gives no material to some surfaces.
     pub(super) fn has_bare_surfaces(&self) -> bool {
         self.meshes.iter().any(|mesh| mesh.material.is_none())
     }
 
-    /// What is said of those surfaces where the shot gives them no material either.
+    /// The warning about those surfaces if the shot gives them no material either.
     fn of_bare_surfaces(&self) -> Option<Warning> {
         let placements = self.file.placements.iter();
         let bare = placements.filter(|p| self.meshes[p.mesh].material.is_none());
@@ -91,7 +91,8 @@ impl Library {
         }
     }
 
-    /// What of the files the picture will not show as it stands there, with the file's name.
+    /// Warnings about content of the files that the image will not show as it is, with the file's
+    /// name.
     pub fn warnings<'a>(&'a self, shot: &'a Shot) -> impl Iterator<Item = (&'a Path, String)> {
         let mut seen: Vec<*const Loaded> = Vec::new();
         let models = shot
@@ -177,7 +178,7 @@ fn load_models(shot: &Shot, mistakes: &mut Vec<Mistake>) -> Vec<Arc<Loaded>> {
     models
 }
 
-/// What a file gave, or nothing and the mistake.
+/// The value, or None after recording the mistake.
 fn kept<T>(
     shot: &Shot,
     key: &str,

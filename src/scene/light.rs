@@ -1,4 +1,4 @@
-//! Lamps, each at rest in a worldline of its own.
+//! Lamps, each at rest in a worldline.
 
 use super::spectra::Spectra;
 use crate::frame::{self, Amount};
@@ -13,20 +13,20 @@ use std::sync::Arc;
 /// A lamp.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Light {
-    /// For messages.
+    /// Name for messages.
     pub name: String,
     /// Index into the scene's worldlines.
     pub worldline: usize,
-    /// Where or whence, in the lamp's rest frame.
+    /// Position and direction of the light, in the lamp's rest frame.
     pub shape: LightShape,
-    /// scale × spectrum is the spectral intensity, W·sr⁻¹·nm⁻¹ (sun: irradiance, W·m⁻²·nm⁻¹), in
-    /// the lamp's rest frame.
+    /// Factor: scale × spectrum is the spectral intensity, W·sr⁻¹·nm⁻¹ (sun: irradiance,
+    /// W·m⁻²·nm⁻¹), in the lamp's rest frame.
     pub scale: f64,
     /// Shape of the spectrum.
     pub spectrum: Arc<Spectrum>,
 }
 
-/// Where a lamp's light comes from; positions in metres, directions unit vectors of travel.
+/// Origin of a lamp's light. Positions are in meters, directions are unit vectors of travel.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum LightShape {
     /// The same intensity in all directions.
@@ -45,7 +45,7 @@ pub enum LightShape {
         /// Cosine of the outer half-angle, not above `cos_inner`.
         cos_outer: f64,
     },
-    /// Parallel light from infinitely far.
+    /// Parallel light from infinity.
     Sun {
         /// Direction of travel.
         direction: DVec3,
@@ -53,9 +53,8 @@ pub enum LightShape {
 }
 
 impl LightShape {
-    /// Share of the full intensity that leaves along the unit direction `n`:
-    /// clamp((cos θ − cos outer)/(cos inner − cos outer))² (KHR_lights_punctual), a step where
-    /// the cones are equal.
+    /// Share of the full intensity along the unit direction `n`: clamp((cos θ − cos outer)/(cos
+    /// inner − cos outer))² (KHR_lights_punctual), a step if both cones are equal.
     pub fn share(&self, n: DVec3) -> f64 {
         match *self {
             Self::Spot {
@@ -78,19 +77,19 @@ impl LightShape {
     }
 }
 
-/// Why a lamp cannot shine.
+/// Reason why a lamp cannot be used.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub(super) enum LightError {
-    /// Its intensity is in candela or lux, but it has no visible light.
+    /// Its intensity is in candela or lux, but it emits no visible light.
     #[error("its spectrum has no visible power, so no candela or lux of it can be had")]
     Dark,
-    /// A file's number, in candela or lux, is beyond all numbers.
+    /// A number of a file, in candela or lux, is too large.
     #[error("its intensity of {found:e} is beyond all numbers in cd or lx: write a smaller one")]
     TooStrong {
-        /// As in the file.
+        /// The number in the file.
         found: f64,
     },
-    /// Its spectrum is none.
+    /// Its spectrum is invalid.
     #[error(transparent)]
     Spectrum(#[from] SpectrumError),
 }
@@ -157,7 +156,7 @@ impl Light {
         })
     }
 
-    /// The same lamp elsewhere.
+    /// The same lamp, displaced.
     pub(super) fn displaced(&self, by: DVec3) -> Self {
         let mut moved = self.clone();
         match &mut moved.shape {
@@ -168,8 +167,8 @@ impl Light {
     }
 }
 
-/// Candela or lux in the unit of a file's lamps: Blender spreads a point's and a spot's watts over
-/// the whole sphere.
+/// Candela or lux per unit of a file's lamps: Blender distributes the watts of a point or spot lamp
+/// over the whole sphere.
 fn unit(units: LightUnits, kind: LampKind) -> f64 {
     match (units, kind) {
         (LightUnits::Standard, _) => 1.0,

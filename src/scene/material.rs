@@ -1,5 +1,7 @@
-//! What surfaces do with light, in their rest frame.
+//! Materials: the lobes of a surface and its own light, made from the model file's material with the
+//! shot's laid over it. All spectra are those of the surface's rest frame.
 
+use super::bsdf::{Bsdf, Lobe, LobeKind, Reflectance};
 use super::spectra::Spectra;
 use crate::frame;
 use crate::model::ModelMaterial;
@@ -12,57 +14,17 @@ const EXPONENT: f64 = 40.0;
 /// Index of refraction where its author gave none: of common glass.
 const IOR: f64 = 1.5;
 
-/// A surface: the sum of its terms, each None where it has none.
+/// A surface: what it reflects and transmits, and its own light.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Material {
     /// Name, as the shot or the model file has it.
     pub name: String,
-    /// Lambertian: L = ρE/π.
-    pub diffuse: Option<Reflectance>,
-    /// Blinn–Phong highlight.
-    pub highlight: Option<Highlight>,
-    /// Ideal reflection.
-    pub mirror: Option<Reflectance>,
-    /// Ideal refraction.
-    pub refraction: Option<Refraction>,
+    /// Reflection and transmission.
+    pub bsdf: Bsdf,
     /// Cold light of its own: spectral radiance scale × spectrum, W·m⁻²·sr⁻¹·nm⁻¹.
     pub emission: Option<Reflectance>,
     /// Thermal light of its own.
     pub thermal: Option<Thermal>,
-}
-
-/// weight × spectrum.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Reflectance {
-    /// Factor, at least 0.
-    pub weight: f64,
-    /// Shape.
-    pub spectrum: Arc<Spectrum>,
-}
-
-impl Reflectance {
-    /// The largest share of light that it lets go on, at any wavelength.
-    pub fn most(&self) -> f64 {
-        (self.weight * self.spectrum.peak()).min(1.0)
-    }
-}
-
-/// A highlight: weight × spectrum × (n+8)/(8π) × (N·H)ⁿ is added to the BRDF.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Highlight {
-    /// weight × spectrum.
-    pub reflectance: Reflectance,
-    /// n, at least 0.
-    pub exponent: f64,
-}
-
-/// Ideal refraction at a boundary: outside, where triangles show their front, is vacuum.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Refraction {
-    /// weight × spectrum, of what passes the boundary.
-    pub transmittance: Reflectance,
-    /// Index of refraction inside, at least 1.
-    pub ior: f64,
 }
 
 /// Thermal light: emissivity × a black body's curve.
@@ -137,7 +99,10 @@ impl Material {
         };
         let is_some = |rgb: [f64; 3]| rgb.iter().any(|&c| c > 0.0);
         if is_some(file.base_color) {
-            made.diffuse = Some(term(Spectra::color(file.base_color)?));
+            made.bsdf = Bsdf::new(vec![Lobe {
+                kind: LobeKind::Diffuse,
+                reflectance: term(Spectra::color(file.base_color)?),
+            }]);
         }
         if is_some(file.emissive) {
             // By its hue, so that the curve's shape does not change with its strength.
@@ -156,37 +121,32 @@ impl Material {
         over: &frame::Material<'_>,
         spectra: &Spectra<'_>,
     ) -> Result<Self, MaterialError> {
-        let reflectance = |name, term: frame::Term<'_>, below| {
-            let made = laid(name, term, below, spectra)?;
-            within_one(name, made.weight, &made.spectrum)?;
-            Ok::<_, MaterialError>(made)
-        };
         if let Some(term) = over.diffuse {
-            self.diffuse = Some(reflectance("diffuse", term, self.diffuse)?);
+            let key = LobeKind::Diffuse.key();
+            self = self.with(key, term, |_| LobeKind::Diffuse, spectra)?;
         }
         if let Some(term) = over.emission {
             self.emission = Some(laid("emission", term, self.emission, spectra)?);
         }
         if let Some(frame::Highlight { term, exponent }) = over.highlight {
-            let below = self.highlight.take();
-            let kept = below.as_ref().map_or(EXPONENT, |h| h.exponent);
-            let below = below.map(|h| h.reflectance);
-            self.highlight = Some(Highlight {
-                reflectance: reflectance("highlight", term, below)?,
-                exponent: exponent.unwrap_or(kept),
-            });
+            let kind = |below| match (exponent, below) {
+                (Some(exponent), _) => LobeKind::Highlight { exponent },
+                (None, Some(kept)) => kept,
+                (None, None) => LobeKind::Highlight { exponent: EXPONENT },
+            };
+            self = self.with("highlight", term, kind, spectra)?;
         }
         if let Some(term) = over.mirror {
-            self.mirror = Some(reflectance("mirror", term, self.mirror)?);
+            let key = LobeKind::Mirror.key();
+            self = self.with(key, term, |_| LobeKind::Mirror, spectra)?;
         }
         if let Some(frame::Refraction { term, ior }) = over.refraction {
-            let below = self.refraction.take();
-            let kept = below.as_ref().map_or(IOR, |r| r.ior);
-            let below = below.map(|r| r.transmittance);
-            self.refraction = Some(Refraction {
-                transmittance: reflectance("refraction", term, below)?,
-                ior: ior.unwrap_or(kept),
-            });
+            let kind = |below| match (ior, below) {
+                (Some(ior), _) => LobeKind::Refraction { ior },
+                (None, Some(kept)) => kept,
+                (None, None) => LobeKind::Refraction { ior: IOR },
+            };
+            self = self.with("refraction", term, kind, spectra)?;
         }
         if let Some(term) = &over.thermal {
             self.thermal = thermal(term, spectra)?;
@@ -194,28 +154,38 @@ impl Material {
         Ok(self)
     }
 
-    /// The same without terms that contribute nothing.
+    /// The lobe of a key of the shot over the one that stands there. `kind` makes its geometry of that
+    /// one's.
+    fn with(
+        mut self,
+        key: &'static str,
+        over: frame::Term<'_>,
+        kind: impl FnOnce(Option<LobeKind>) -> LobeKind,
+        spectra: &Spectra<'_>,
+    ) -> Result<Self, MaterialError> {
+        let below = self.bsdf.of_key(key).cloned();
+        let kind = kind(below.as_ref().map(|lobe| lobe.kind));
+        let reflectance = laid(key, over, below.map(|lobe| lobe.reflectance), spectra)?;
+        within_one(key, reflectance.weight, &reflectance.spectrum)?;
+        self.bsdf = self.bsdf.with(Lobe { kind, reflectance });
+        Ok(self)
+    }
+
+    /// The same without lobes and light that contribute nothing.
     pub(super) fn pruned(mut self) -> Self {
-        let seen = |r: &Reflectance| r.weight > 0.0 && *r.spectrum != Spectrum::Constant(0.0);
-        self.diffuse = self.diffuse.filter(seen);
-        self.emission = self.emission.filter(seen);
-        self.highlight = self.highlight.filter(|h| seen(&h.reflectance));
-        self.mirror = self.mirror.filter(seen);
-        // Without transmittance it is still a boundary, which gives a mirror its share.
-        self.refraction = self
-            .refraction
-            .filter(|r| self.mirror.is_some() || seen(&r.transmittance));
+        self.bsdf = self.bsdf.pruned();
+        self.emission = self.emission.filter(Reflectance::is_seen);
         self
     }
 
     /// Whether lamps show on it.
     pub fn takes_lamps(&self) -> bool {
-        self.diffuse.is_some() || self.highlight.is_some()
+        !self.bsdf.non_specular().is_empty()
     }
 
     /// Whether other things are seen in it.
     pub fn passes_light_on(&self) -> bool {
-        self.mirror.is_some() || self.refraction.is_some()
+        self.bsdf.non_specular().len() < self.bsdf.lobes().len()
     }
 }
 

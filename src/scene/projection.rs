@@ -1,7 +1,8 @@
-//! Projections: which direction an image point is seen in, in camera space (x right, y up, z back).
+//! Projections: the direction in which an image point is seen, in camera space (x right, y up, z
+//! back).
 //!
-//! Image points are in fractions of the image, from 0 at the left and top to 1; a little outside
-//! of it, where the pixel's filter reaches, the same formulas go on. Angles are in radians. The
+//! Image points are in fractions of the image, from 0 at the left and top to 1; slightly outside of
+//! it, where the pixel's filter reaches, the same formulas hold. Angles are in radians. The
 //! equirectangular and the equidistant projection are those of Snyder, Map Projections: A Working
 //! Manual (1987), pp. 90 and 191.
 
@@ -10,29 +11,29 @@ use crate::shot;
 use glam::DVec3;
 use std::f64::consts::{PI, TAU};
 
-/// Horizontal angle of view where the shot gives none, degrees.
+/// Horizontal field of view if the shot gives none, degrees.
 const PERSPECTIVE_DEG: f64 = 90.0;
-/// Angle across the shorter side where the shot gives none, degrees.
+/// Angle across the shorter side if the shot gives none, degrees.
 const FISHEYE_DEG: f64 = 180.0;
 
-/// How image points become directions.
+/// Map from image points to directions.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Projection {
     /// Straight lines stay straight.
     Perspective {
-        /// Tangents of half the horizontal and vertical angle of view.
+        /// Tangents of half the horizontal and vertical field of view.
         tan_half: [f64; 2],
     },
     /// Columns of equal yaw, rows of equal pitch.
     Equirectangular {
-        /// Half the horizontal and vertical angle of view, at most π and π/2.
+        /// Half the horizontal and vertical field of view, at most π and π/2.
         half: [f64; 2],
     },
-    /// The angle from the axis grows in proportion to the distance from the image's centre.
+    /// The angle from the axis is proportional to the distance from the image's center.
     Fisheye {
         /// That angle in the middle of the right and of the upper edge.
         edge: [f64; 2],
-        /// Where the circle ends beyond which nothing is seen; at most π.
+        /// Angle at which the circle ends, at most π; nothing is seen beyond.
         half: f64,
     },
 }
@@ -50,11 +51,11 @@ impl Projection {
         }
     }
 
-    /// A vector along the direction in which `point` is seen, of some length above 0; None where
+    /// A vector, of any length above 0, in the direction in which `point` is seen; None where
     /// nothing is seen.
     #[inline(always)]
     pub(super) fn towards(&self, point: [f64; 2]) -> Option<DVec3> {
-        // From the centre, 1 at the right and upper edge.
+        // Measured from the center; 1 at the right and upper edge.
         let (right, up) = (2.0 * point[0] - 1.0, 1.0 - 2.0 * point[1]);
         match self {
             Self::Perspective { tan_half } => {
@@ -65,9 +66,9 @@ impl Projection {
         }
     }
 
-    /// The image point in which something in the direction of a vector is seen: the inverse of
-    /// [`Projection::towards`], also where that lies outside of the image. None where there is none:
-    /// behind a perspective. Across the seam of a panorama the point nearer to `near` is meant.
+    /// The image point at which something in the direction of a vector is seen: the inverse of
+    /// [`Projection::towards`], also outside of the image. None if there is none, as behind a
+    /// perspective camera. Across the seam of a panorama, the point nearer to `near`.
     pub(super) fn point_of(&self, vector: DVec3, near: [f64; 2]) -> Option<[f64; 2]> {
         let DVec3 { x, y, z } = vector;
         let [right, up] = match self {
@@ -90,8 +91,8 @@ impl Projection {
     }
 }
 
-/// Beyond a pole the cosine is negative: the row goes on upon the other side. Kept out of the loop
-/// over rays, which would else be slower for perspectives too.
+/// The direction by yaw and pitch. Beyond a pole the cosine is negative, and the row continues on
+/// the other side. Not inlined into the loop over rays, which would be slower for perspectives too.
 #[inline(never)]
 fn by_yaw_and_pitch(yaw: f64, pitch: f64) -> DVec3 {
     let (sin_yaw, cos_yaw) = yaw.sin_cos();
@@ -99,7 +100,8 @@ fn by_yaw_and_pitch(yaw: f64, pitch: f64) -> DVec3 {
     DVec3::new(cos_pitch * sin_yaw, sin_pitch, -cos_pitch * cos_yaw)
 }
 
-/// The direction at the angle |(x, y)| from the axis, up to `half`; kept apart as the other.
+/// The direction at the angle |(x, y)| from the axis, up to `half`; not inlined, for the same
+/// reason.
 #[inline(never)]
 fn off_axis(x: f64, y: f64, half: f64) -> Option<DVec3> {
     let angle = x.hypot(y);
@@ -108,7 +110,7 @@ fn off_axis(x: f64, y: f64, half: f64) -> Option<DVec3> {
     (angle <= half).then(|| DVec3::new(x * per_angle, y * per_angle, -cos))
 }
 
-/// From the angles that are given, across an image of `size` pixels.
+/// The projection from the given angles, across an image of `size` pixels.
 fn perspective(given: [Option<f64>; 2], [width, height]: [f64; 2]) -> Projection {
     let tan = |angle: f64| (angle / 2.0).tan();
     let tan_half = match given {
@@ -121,7 +123,7 @@ fn perspective(given: [Option<f64>; 2], [width, height]: [f64; 2]) -> Projection
     Projection::Perspective { tan_half }
 }
 
-/// As [`perspective`]. No side spans more than the sphere has.
+/// As [`perspective`]. No side spans more than the sphere.
 fn equirectangular(given: [Option<f64>; 2], [width, height]: [f64; 2]) -> Projection {
     let [across, down] = match given {
         [None, None] => [TAU, PI],

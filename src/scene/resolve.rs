@@ -99,7 +99,10 @@ impl Resolver<'_> {
             order: frame.body_order.clone(),
             worldlines: frame.models.iter().map(|m| m.worldline as u32).collect(),
             materials: own_materials,
-            glass: materials.iter().map(|m| m.refraction.is_some()).collect(),
+            glass: materials
+                .iter()
+                .map(|m| m.bsdf.refraction().is_some())
+                .collect(),
         };
         let lights = self.lights(&arrangement);
         let background = self.background();

@@ -1,4 +1,4 @@
-//! A frame's spectra as curves.
+//! Curves from the spectra of a frame.
 
 use super::library::Library;
 use crate::color::spaces::XYZ_FROM_RGB;
@@ -57,17 +57,17 @@ impl Spectra<'_> {
         Ok(Arc::new(curve))
     }
 
-    /// The smooth curve of a linear Rec. 709 colour.
+    /// The smooth curve of a linear Rec. 709 color.
     pub(super) fn color(rgb: [f64; 3]) -> Result<Arc<Spectrum>, SpectrumError> {
         Ok(Arc::new(Spectrum::Rgb(Uplift::new(rgb)?)))
     }
 
-    /// Light of a linear Rec. 709 colour, D65 times its uplift, and the scale at which it has the
-    /// luminance of that colour where white has `white`: cd/m², and so cd and lx.
+    /// Light of a linear Rec. 709 color, D65 times its uplift, and the scale that gives it the
+    /// luminance of that color if white has `white`: cd/m², and likewise cd and lx.
     pub(super) fn light(rgb: [f64; 3], white: f64) -> Result<(Tinted, f64), SpectrumError> {
         let curve = Tinted::new(rgb)?;
         let lumens = luminous_integral(&Spectrum::Tinted(curve.clone()));
-        // About green, since the three shares are 1 together: a grey's is exact.
+        // Relative to green, since the three shares add up to 1: the result for gray is exact.
         let ([r, g, b], [red, _, blue]) = (rgb, XYZ_FROM_RGB[1]);
         let luminance = g + red * (r - g) + blue * (b - g);
         let scale = if lumens > 0.0 {

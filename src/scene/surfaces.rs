@@ -1,12 +1,13 @@
-//! Which material each surface of a model has: the shot's, the file's, or one laid over the other.
+//! The material of each surface of a model: the shot's, the file's, or the shot's laid over the
+//! file's.
 
 use super::material::{Material, MaterialError};
 use super::resolve::Resolver;
 use super::spectra::Spectra;
 use crate::model::ModelMaterial;
 
-/// What surfaces to which neither file nor shot gives a material have: glTF's default, which is white
-/// (glTF 2.0, section 5.19).
+/// The material of surfaces to which neither file nor shot gives one: glTF's default, white (glTF
+/// 2.0, section 5.19).
 static NO_MATERIAL: ModelMaterial = ModelMaterial {
     name: String::new(),
     base_color: [1.0; 3],
@@ -16,8 +17,8 @@ static NO_MATERIAL: ModelMaterial = ModelMaterial {
 };
 
 impl Resolver<'_> {
-    /// All materials, and for each model the indices of its own materials; past those, of what
-    /// surfaces without material get.
+    /// All materials, and for each model the indices of its materials; after these, that of
+    /// surfaces without material.
     pub(super) fn materials(&mut self) -> (Vec<Material>, Vec<Vec<u32>>) {
         let mut materials = Vec::new();
         let of_models = (0..self.frame.models.len())
@@ -44,8 +45,8 @@ impl Resolver<'_> {
         numbers
     }
 
-    /// Names of the file's materials that the shot maps must be there; surfaces without material
-    /// have the empty one.
+    /// Checks that the file's materials that the shot maps exist; surfaces without material have
+    /// the empty name.
     fn check_named(&mut self, index: usize) {
         let loaded = self.library.model(index);
         let own = loaded.file.materials.iter().map(|m| m.name.as_str());
@@ -65,14 +66,14 @@ impl Resolver<'_> {
         }
     }
 
-    /// The number of a material as one model sees it: the shot's, the file's, or the first laid
-    /// over the second.
+    /// The index of a material as one model sees it: the shot's, the file's, or the first laid over
+    /// the second.
     fn material(&mut self, model: usize, name: &str, materials: &mut Vec<Material>) -> u32 {
         let own = &self.library.model(model).file.materials;
         self.laid_over(own.iter().find(|m| m.name == name), name, materials)
     }
 
-    /// The number of the shot's material of this name laid over the file's.
+    /// The index of the shot's material of this name laid over the file's.
     fn laid_over(
         &mut self,
         file: Option<&ModelMaterial>,
@@ -82,7 +83,7 @@ impl Resolver<'_> {
         let spectra = Spectra {
             library: self.library,
         };
-        // By what it is, not by what it looks like in this image: bodies keep their numbers.
+        // By identity, not by appearance in this image: bodies keep their numbers.
         let key = (file.map(std::ptr::from_ref), name.to_owned());
         if let Some(&number) = self.numbers.get(&key) {
             return number;

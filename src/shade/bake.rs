@@ -1,162 +1,32 @@
-//! What a shader is made of: the curves of materials and lamps, baked, and their tables.
+//! Makes the curves of materials and lamps, and their tables, for an image's sensor and shifts.
 
 use super::curve::Curve;
+use super::material::{EmitterTable, MaterialCurves, ReflectorTables};
 use super::narrow::Narrow;
-use super::received::{Received, finite};
+use super::received::finite;
+use super::settings::Settings;
 use super::table::XyzTable;
-use super::thermal::Glow;
-use crate::frame::{self, ActiveEffects};
-use crate::scene::{Material, Reflectance, Scene, Thermal};
-use crate::shot::{Accuracy, Spectra};
+use super::thermal::BlackbodySpectrum;
+use crate::scene::{Lobe, Material, Thermal};
+use crate::shot::Spectra;
 use crate::spectrum::quadrature::cuts_nm;
 use crate::spectrum::{Fine, FineSensor, Quadrature, Sensor, Spectrum, planck};
-use crate::trace::Term;
 use std::cell::OnceCell;
 use std::sync::Arc;
 
-/// A material's curves.
-pub(super) struct MaterialCurves {
-    pub(super) diffuse: Option<Reflecting>,
-    pub(super) highlight: Option<Reflecting>,
-    pub(super) emission: Option<Sight>,
-    pub(super) glow: Option<Glow>,
-    mirror: Option<Curve>,
-    refraction: Option<Curve>,
-    /// Whether a curve that makes light of its own or of lamps is narrow.
-    pub(super) narrow: bool,
-}
-
-impl MaterialCurves {
-    /// Diffuse and highlight.
-    pub(super) fn reflecting(&self) -> impl Iterator<Item = &Option<Reflecting>> {
-        [&self.diffuse, &self.highlight].into_iter()
-    }
-
-    /// Memory of curves and tables, bytes.
-    pub(super) fn bytes(&self) -> usize {
-        let reflecting = |r: &Reflecting| {
-            let tables = r.tables.iter().flatten().map(XyzTable::bytes);
-            r.reflectance.bytes() + tables.sum::<usize>()
-        };
-        let passing = [&self.mirror, &self.refraction].into_iter().flatten();
-        self.reflecting().flatten().map(reflecting).sum::<usize>()
-            + passing.map(Curve::bytes).sum::<usize>()
-            + self.emission.as_ref().map_or(0, Sight::bytes)
-            + self.glow.as_ref().map_or(0, Glow::bytes)
-    }
-
-    /// The share of light that a term passes on.
-    pub(super) fn passing(&self, term: Term) -> Option<&Curve> {
-        match term {
-            Term::Mirror => self.mirror.as_ref(),
-            Term::Refraction => self.refraction.as_ref(),
-        }
-    }
-}
-
-/// A reflectance, and XYZ of its product with each emitter for lamps that move with the surface.
-pub(super) struct Reflecting {
-    pub(super) reflectance: Curve,
-    /// By emitter; None where none is made.
-    pub(super) tables: Vec<Option<XyzTable>>,
-}
-
-/// A curve that is seen as it is.
-pub(super) struct Sight {
-    pub(super) curve: Curve,
-    pub(super) table: XyzTable,
-    /// Whether the table stands in for the sum over wavelengths.
-    pub(super) tabulated: bool,
-}
-
-impl Sight {
-    /// Memory of curve and table, bytes.
-    pub(super) fn bytes(&self) -> usize {
-        self.curve.bytes() + self.table.bytes()
-    }
-
-    /// XYZ under the Doppler factor `d`.
-    pub(super) fn xyz(
-        &self,
-        d: f64,
-        received: Received,
-        sensor: &Sensor,
-        shape: &mut [f32],
-    ) -> [f64; 3] {
-        let power = received.radiance(d);
-        let shift = received.shift(d);
-        if self.tabulated {
-            return self.table.at(shift.ln()).map(|v| v * power);
-        }
-        if let Some(narrow) = self.curve.narrow() {
-            let seen = narrow.times(
-                shift.ln(),
-                |_| 1.0,
-                shape,
-                |shape| {
-                    shape.fill(1.0);
-                    1.0
-                },
-            );
-            return seen.map(|v| finite(v * power));
-        }
-        let factor = finite(self.curve.read(shift, shape) * power);
-        sensor.xyz_of_shape(shape).map(|v| v * factor)
-    }
-
-    /// Adds the spectral radiance under the Doppler factor `d` at the axis' wavelengths.
-    pub(super) fn add(&self, d: f64, received: Received, out: &mut [f64], shape: &mut [f32]) {
-        let peak = self.curve.read(received.shift(d), shape);
-        let factor = finite(peak * received.radiance(d));
-        for (out, shape) in out.iter_mut().zip(&*shape) {
-            *out += factor * f64::from(*shape);
-        }
-    }
-}
-
-/// What a [`Shader`](super::Shader) is made for, beside the scene.
-pub struct Settings<'a> {
-    /// Effects of the image.
-    pub called: &'a ActiveEffects,
-    /// How spectra are held.
-    pub accuracy: &'a Accuracy,
-    /// The band that is seen, and how.
-    pub sensor: &'a frame::Sensor,
-    /// Largest |ln D| between a surface and the camera.
-    pub reach: f64,
-    /// Largest |ln D| between a lamp and a surface.
-    pub lamp_reach: f64,
-}
-
-/// For each light its emitter and scale, and the emitters' spectra.
-pub(super) fn distinct_emitters(scene: &Scene) -> (Vec<(usize, f64)>, Vec<Arc<Spectrum>>) {
-    let mut spectra: Vec<Arc<Spectrum>> = Vec::new();
-    let lamps = scene
-        .lights
-        .iter()
-        .map(|light| {
-            let known = spectra.iter().position(|s| *s == light.spectrum);
-            let emitter = known.unwrap_or_else(|| {
-                spectra.push(Arc::clone(&light.spectrum));
-                spectra.len() - 1
-            });
-            (emitter, light.scale)
-        })
-        .collect();
-    (lamps, spectra)
-}
-
 /// Makes curves and tables.
+///
+/// Reach is always the largest |ln D|.
 pub(super) struct Bake<'a> {
     pub(super) sensor: &'a Sensor,
     pub(super) settings: &'a Settings<'a>,
     /// Whether tables stand in for sums over wavelengths.
     pub(super) tabulated: bool,
-    /// Whether there are no more pairs of material and emitter than are tabulated.
+    /// Whether there are at most [`MOST_TABLES`] pairs of material and emitter.
     pub(super) few: bool,
-    /// The integrals that the sensor's channels stand for.
+    /// The integrals over wavelength that the sensor's sums stand for.
     pub(super) quadrature: &'a Quadrature,
-    /// Made where a curve is narrow.
+    /// Made when the first curve is narrow.
     pub(super) fine: OnceCell<Arc<FineSensor>>,
 }
 
@@ -165,11 +35,12 @@ pub(super) struct Bake<'a> {
 pub(super) const MOST_TABLES: usize = 1000;
 
 impl Bake<'_> {
+    /// weight × spectrum, at most `limit`.
     pub(super) fn curve(&self, spectrum: &Arc<Spectrum>, weight: f64, limit: f64) -> Curve {
         self.narrowed(self.smooth_curve(spectrum, weight, limit))
     }
 
-    /// A curve that counts as smooth, whatever it is.
+    /// The same held as a smooth curve, however narrow it is.
     pub(super) fn smooth_curve(&self, spectrum: &Arc<Spectrum>, weight: f64, limit: f64) -> Curve {
         let curve = Curve::new(spectrum, weight, limit, self.sensor.axis());
         match self.settings.accuracy.spectra {
@@ -190,12 +61,12 @@ impl Bake<'_> {
         }
     }
 
-    /// Largest |ln D| under which any curve is read.
+    /// The reach of any curve.
     fn reach(&self) -> f64 {
         self.shifted(self.settings.reach + self.settings.lamp_reach)
     }
 
-    /// A reach, or 0 where curves do not shift.
+    /// A reach, or 0 where spectra do not shift.
     fn shifted(&self, reach: f64) -> f64 {
         if self.settings.called.doppler {
             reach
@@ -204,70 +75,64 @@ impl Bake<'_> {
         }
     }
 
-    /// The sensor at the nodes of narrow curves.
+    /// The sensor over wavelengths close enough for narrow curves.
     fn fine(&self) -> &Arc<FineSensor> {
         let make = || Arc::new(FineSensor::new(self.sensor, self.quadrature));
         self.fine.get_or_init(make)
     }
 
-    pub(super) fn surface(&self, material: &Material, emitters: &[Sight]) -> MaterialCurves {
-        let reflecting = |weight: f64, spectrum: &Arc<Spectrum>| {
-            let reflectance = self.curve(spectrum, weight, 1.0);
-            let tables = emitters
-                .iter()
-                .map(|e| self.product(&reflectance, &e.curve))
-                .collect();
-            Reflecting {
-                reflectance,
-                tables,
-            }
-        };
-        let passing =
-            |term: Option<&Reflectance>| term.map(|r| self.curve(&r.spectrum, r.weight, 1.0));
-        let thermal = material
-            .thermal
-            .as_ref()
-            .filter(|_| self.settings.called.thermal);
-        let mut curves = MaterialCurves {
-            narrow: false,
-            diffuse: material
-                .diffuse
-                .as_ref()
-                .map(|r| reflecting(r.weight, &r.spectrum)),
-            highlight: material
-                .highlight
-                .as_ref()
-                .map(|h| reflecting(h.reflectance.weight, &h.reflectance.spectrum)),
-            emission: material.emission.as_ref().map(|e| {
-                self.sight(
-                    self.curve(&e.spectrum, e.weight, f64::INFINITY),
-                    self.settings.reach,
-                )
-            }),
-            glow: thermal.map(|t| self.glow(t)),
-            mirror: passing(material.mirror.as_ref()),
-            refraction: passing(material.refraction.as_ref().map(|r| &r.transmittance)),
-        };
-        let reflectances = curves.reflecting().flatten().map(|r| &r.reflectance);
-        let sources = curves.emission.iter().map(|sight| &sight.curve);
-        let emissivity = curves.glow.iter().map(|glow| glow.parts().1);
+    /// The curves of a material under lamps of these emitters.
+    pub(super) fn material(
+        &self,
+        material: &Material,
+        emitters: &[EmitterTable],
+    ) -> MaterialCurves {
+        let lobes = material.bsdf.lobes().iter();
+        let lobes: Vec<ReflectorTables> = lobes.map(|lobe| self.lobe(lobe, emitters)).collect();
+        let non_specular = material.bsdf.non_specular().len();
+        let emission = material.emission.as_ref().map(|emission| {
+            let curve = self.curve(&emission.spectrum, emission.weight, f64::INFINITY);
+            self.emitter_table(curve, self.settings.reach)
+        });
+        let thermal = material.thermal.as_ref();
+        let thermal = thermal.filter(|_| self.settings.called.thermal);
+        let thermal = thermal.map(|thermal| self.thermal(thermal));
+        let reflectances = lobes[..non_specular].iter().map(|lobe| &lobe.reflectance);
+        let emissivity = thermal.iter().map(|thermal| thermal.parts().1);
         let narrow = reflectances
-            .chain(sources)
+            .chain(emission.iter().map(|emission| &emission.curve))
             .chain(emissivity)
             .any(|curve| curve.narrow().is_some());
-        curves.narrow = narrow;
-        curves
+        MaterialCurves {
+            lobes,
+            non_specular,
+            emission,
+            thermal,
+            narrow,
+        }
     }
 
-    fn glow(&self, thermal: &Thermal) -> Glow {
+    fn lobe(&self, lobe: &Lobe, emitters: &[EmitterTable]) -> ReflectorTables {
+        let own = &lobe.reflectance;
+        let reflectance = self.curve(&own.spectrum, own.weight, 1.0);
+        let lamps = !lobe.kind.is_specular();
+        let emitters = emitters.iter().filter(|_| lamps);
+        let tables = emitters.map(|emitter| self.product(&reflectance, &emitter.curve));
+        ReflectorTables {
+            tables: tables.collect(),
+            reflectance,
+        }
+    }
+
+    fn thermal(&self, thermal: &Thermal) -> BlackbodySpectrum {
         // Read at exact wavelengths, so not baked.
         let emissivity = Curve::new(&thermal.emissivity, 1.0, 1.0, self.sensor.axis());
-        let glow = Glow::new(thermal, self.narrowed(emissivity));
+        let light = BlackbodySpectrum::new(thermal, self.narrowed(emissivity));
         // Planck's curve is nowhere constant: as far as D reaches.
         let everywhere = Some([f64::MIN_POSITIVE, f64::MAX]);
-        let (kelvin, emissivity) = glow.parts();
+        let (kelvin, emissivity) = light.parts();
         if emissivity.narrow().is_some() {
-            let light = |nm| emissivity.at(nm) * planck::radiance(nm, kelvin);
+            let curve = |nm| emissivity.at(nm) * planck::radiance(nm, kelvin);
             let mut cuts = Vec::new();
             cuts_nm(emissivity.spectrum(), 1.0, &mut cuts);
             let reach = self.shifted(self.settings.reach);
@@ -276,24 +141,26 @@ impl Bake<'_> {
                 .narrow()
                 .and_then(Narrow::extent_nm)
                 .or(everywhere);
-            if let Some(table) = self.fine_table(reach, support, &cuts, light) {
-                return glow.with_table(table);
+            if let Some(table) = self.fine_table(reach, support, &cuts, curve) {
+                return light.with_table(table);
             }
         }
         if !self.tabulated {
-            return glow;
+            return light;
         }
-        glow.tabulated(self.sensor.axis(), |read| {
+        light.tabulated(self.sensor.axis(), |read| {
             self.table(self.settings.reach, everywhere, read)
         })
     }
 
-    pub(super) fn emitter(&self, spectrum: &Arc<Spectrum>) -> Sight {
+    /// The spectrum of lamps.
+    pub(super) fn emitter(&self, spectrum: &Arc<Spectrum>) -> EmitterTable {
         let reach = self.settings.reach + self.settings.lamp_reach;
-        self.sight(self.curve(spectrum, 1.0, f64::INFINITY), reach)
+        self.emitter_table(self.curve(spectrum, 1.0, f64::INFINITY), reach)
     }
 
-    pub(super) fn sight(&self, curve: Curve, reach: f64) -> Sight {
+    /// Light of a curve that is received under |ln D| of at most `reach`.
+    pub(super) fn emitter_table(&self, curve: Curve, reach: f64) -> EmitterTable {
         let support = curve.support_nm();
         let narrow = curve.narrow();
         let (table, tabulated) = match narrow.map(|n| n.table(self.shifted(reach), support)) {
@@ -304,14 +171,14 @@ impl Bake<'_> {
                 self.tabulated,
             ),
         };
-        Sight {
+        EmitterTable {
             curve,
             table,
             tabulated,
         }
     }
 
-    /// XYZ of reflectance times emitter under one shift, where a table is made of it.
+    /// Reflectance times emitter under one shift, where a table is made of it.
     fn product(&self, reflectance: &Curve, emitter: &Curve) -> Option<XyzTable> {
         let support = match (reflectance.support_nm(), emitter.support_nm()) {
             (Some([a, b]), Some([c, d])) => Some([a.min(c), b.max(d)]),
@@ -362,8 +229,8 @@ impl Bake<'_> {
             .then(|| XyzTable::of_fine(self.fine(), &fine, reach, support_nm))
     }
 
-    /// A table over |ln D| up to `reach`, or at D = 1 alone where curves do not shift or sums take
-    /// its place.
+    /// A table of what `read` writes, see [`XyzTable::new`]; of D = 1 alone where spectra do not shift
+    /// or sums over wavelengths are made.
     fn table(
         &self,
         reach: f64,

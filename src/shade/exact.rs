@@ -1,20 +1,21 @@
-//! Shade trees to channels as exactly as f64 goes: `accuracy.spectra = "exact"`.
+//! `accuracy.spectra = "exact"`: shade trees to channels as exactly as f64 goes.
 //!
 //! All light along a ray, through its mirrors and glass, is one function of wavelength, made of
 //! spectra as their author wrote them, each read under its own shift, and of Planck's law. It is
-//! summed once, by [`Quadrature`], within [`TOLERANCE`](crate::spectrum::quadrature::TOLERANCE)
+//! integrated once, by [`Quadrature`], within [`TOLERANCE`](crate::spectrum::quadrature::TOLERANCE)
 //! = 1e-10 of the greatest channel: no table, no axis, no f32.
 //!
-//! Cost: from 3300 readings of all light of a ray for XYZ, 0.1 ms where a lamp lights paint, 1 ms
-//! where it glows too; a grid of 84 wavelengths takes less than a hundredth. For checking others.
+//! Cost: from 3300 evaluations of all light of a ray for XYZ, 0.1 ms where a lamp lights paint, 1 ms
+//! where it is thermal too; a grid of 84 wavelengths takes less than a hundredth. For checking
+//! others.
 
-use super::curve::Curve;
 use super::curves::CurveShader;
-use super::received::finite;
-use super::thermal::SeenGlow;
-use crate::spectrum::quadrature::cuts_nm;
-use crate::spectrum::{ColoredLight, Quadrature, planck};
-use crate::trace::{Node, Root, Seen, ShadeTrees, Surface};
+use super::integrand::{Reading, Reflected, Source};
+use super::received::{Doppler, finite};
+use super::walk::{Lamps, Passage, SpectralBasis, Visit};
+use crate::spectrum::Quadrature;
+use crate::trace::{Root, ShadeTrees};
+use glam::DVec3;
 
 impl CurveShader {
     /// What the camera receives along a ray, in the quadrature's channels.
@@ -24,19 +25,18 @@ impl CurveShader {
         trees: &ShadeTrees,
         root: Root,
     ) -> [f64; 3] {
-        let nodes = trees.nodes_of(root);
-        let mut ends: Vec<End<'_>> = Vec::with_capacity(nodes.len());
+        let mut ends: Vec<End<'_>> = Vec::with_capacity(root.count as usize);
         let mut cuts = Vec::new();
-        for node in nodes {
-            let end = End {
-                way: self.way(nodes, node),
-                sources: self.sources(trees, node),
-            };
-            end.way.iter().for_each(|way| way.add_cuts(&mut cuts));
-            end.sources
-                .iter()
-                .for_each(|source| source.add_cuts(&mut cuts));
-            ends.push(end);
+        for visit in self.walk.visits(trees, root) {
+            let way = visit.passage().map(|passage| Way {
+                parent: passage.parent,
+                share: passage.share,
+                passed: self.passed(&passage),
+            });
+            let sources = self.sources(&visit);
+            way.iter().for_each(|way| way.passed.add_cuts(&mut cuts));
+            sources.iter().for_each(|source| source.add_cuts(&mut cuts));
+            ends.push(End { way, sources });
         }
         match &ends[..] {
             [] => [0.0; 3],
@@ -45,217 +45,107 @@ impl CurveShader {
         }
     }
 
-    /// The last surface on a node's way to the camera; None where the camera sees it directly.
-    fn way(&self, nodes: &[Node], node: &Node) -> Option<Way<'_>> {
-        let branch = node.branch?;
-        let by = &nodes[branch.parent as usize];
-        let curve = match by.seen {
-            Seen::Surface(surface) => self.surfaces[surface.material as usize].passing(branch.term),
-            Seen::Sky(_) => None,
-        };
-        Some(Way {
-            parent: branch.parent as usize,
-            share: branch.share,
-            passed: curve.map(|curve| Reading {
-                curve,
-                shift: self.received.shift(by.doppler),
-            }),
-        })
+    /// The reflectance or transmittance of a surface on a way, as the camera reads it.
+    pub(super) fn passed(&self, passage: &Passage) -> Reading<'_> {
+        Reading {
+            curve: &self.materials[passage.material].lobes[passage.lobe].reflectance,
+            shift: passage.doppler.shift(),
+        }
     }
 
     /// All light of a node as the camera would see it directly.
-    pub(super) fn sources(&self, trees: &ShadeTrees, node: &Node) -> Vec<Source<'_>> {
-        let mut sources = Vec::new();
-        let doppler = node.doppler;
-        match &node.seen {
-            Seen::Sky(direction) => {
-                self.sky
-                    .add_sources(*direction, doppler, self.received, &mut sources);
-            }
-            Seen::Surface(surface) => {
-                let curves = &self.surfaces[surface.material as usize];
-                if let Some(emission) = &curves.emission {
-                    sources.push(Source::Curve {
-                        factor: self.received.radiance(doppler),
-                        reading: Reading {
-                            curve: &emission.curve,
-                            shift: self.received.shift(doppler),
-                        },
-                    });
-                }
-                if let Some(glow) = &curves.glow {
-                    sources.push(Source::Glow(glow.seen(doppler, self.received)));
-                }
-                self.add_lamps(trees, surface, doppler, &mut sources);
-            }
-        }
-        sources
+    pub(super) fn sources(&self, visit: &Visit<'_>) -> Vec<Source<'_>> {
+        let mut sources = Sources {
+            shader: self,
+            sources: Vec::new(),
+        };
+        visit.add_to(&mut sources);
+        sources.sources
+    }
+}
+
+/// Sources as functions of wavelength.
+struct Sources<'a> {
+    shader: &'a CurveShader,
+    sources: Vec<Source<'a>>,
+}
+
+impl SpectralBasis for Sources<'_> {
+    fn sky(&mut self, direction: DVec3, doppler: Doppler) {
+        let sky = &self.shader.sky;
+        sky.add_sources(direction, doppler, &mut self.sources);
     }
 
-    /// Adds the light of a surface's lamps: those of one emitter and shift once.
-    fn add_lamps<'a>(
-        &'a self,
-        trees: &ShadeTrees,
-        surface: &Surface,
-        doppler: f64,
-        sources: &mut Vec<Source<'a>>,
-    ) {
-        let own = &self.surfaces[surface.material as usize];
-        let power = self.received.radiance(doppler);
-        let surface_shift = self.received.shift(doppler);
-        let mut groups: Vec<(usize, f64, [f64; 2])> = Vec::new();
-        for lit in trees.lamps_on(surface) {
-            let (emitter, scale) = self.lamps[lit.light as usize];
-            let shift = self.received.shift(lit.doppler) * surface_shift;
-            let scale = finite(scale * self.received.irradiance(lit.doppler));
-            let shares = [lit.diffuse, lit.highlight].map(|share| finite(scale * share));
-            match groups.iter_mut().find(|g| (g.0, g.1) == (emitter, shift)) {
-                Some((.., sum)) => (0..2).for_each(|i| sum[i] += shares[i]),
-                None => groups.push((emitter, shift, shares)),
+    fn emission(&mut self, material: usize, doppler: Doppler) {
+        let emission = self.shader.materials[material].emission.as_ref();
+        self.sources.extend(emission.map(|emission| Source::Curve {
+            factor: doppler.radiance(),
+            reading: Reading {
+                curve: &emission.curve,
+                shift: doppler.shift(),
+            },
+        }));
+    }
+
+    fn thermal(&mut self, material: usize, doppler: Doppler) {
+        let thermal = self.shader.materials[material].thermal.as_ref();
+        let received = thermal.map(|thermal| Source::Thermal(thermal.received(doppler)));
+        self.sources.extend(received);
+    }
+
+    /// Lamps of one emitter and shift are one source.
+    fn lamps(&mut self, material: usize, doppler: Doppler, lamps: Lamps<'_>) {
+        let power = doppler.radiance();
+        let surface_shift = doppler.shift();
+        let mut groups: Vec<(usize, f64, Vec<f64>)> = Vec::new();
+        for lamp in lamps.iter() {
+            let shift = lamp.doppler.shift() * surface_shift;
+            let scale = finite(lamp.scale * lamp.doppler.irradiance());
+            let shares = lamp.weights.iter().map(|weight| finite(scale * weight));
+            let group =
+                |group: &&mut (usize, f64, Vec<f64>)| (group.0, group.1) == (lamp.emitter, shift);
+            match groups.iter_mut().find(group) {
+                Some((.., sums)) => sums.iter_mut().zip(shares).for_each(|(sum, share)| {
+                    *sum += share;
+                }),
+                None => groups.push((lamp.emitter, shift, shares.collect())),
             }
         }
-        for (emitter, shift, [diffuse, highlight]) in groups {
-            let term = |share: f64, curve: Option<&'a Curve>| {
-                curve.filter(|_| share > 0.0).map(|curve| Reflected {
-                    factor: finite(finite(share) * power),
-                    reading: Reading {
-                        curve,
-                        shift: surface_shift,
-                    },
-                })
-            };
-            let curve = |term: &'a Option<super::bake::Reflecting>| {
-                term.as_ref().map(|reflecting| &reflecting.reflectance)
-            };
-            sources.push(Source::Lit {
+        let reflectors = self.shader.materials[material].reflectors();
+        for (emitter, shift, shares) in groups {
+            let lit = reflectors.iter().zip(shares);
+            let lobes = lit.filter(|(_, share)| *share > 0.0);
+            let lobes = lobes.map(|(lobe, share)| Reflected {
+                factor: finite(finite(share) * power),
+                reading: Reading {
+                    curve: &lobe.reflectance,
+                    shift: surface_shift,
+                },
+            });
+            self.sources.push(Source::Lamp {
                 light: Reading {
-                    curve: &self.emitters[emitter].curve,
+                    curve: &self.shader.emitters[emitter].curve,
                     shift,
                 },
-                terms: [
-                    term(diffuse, curve(&own.diffuse)),
-                    term(highlight, curve(&own.highlight)),
-                ],
+                lobes: lobes.collect(),
             });
         }
     }
 }
 
-/// A curve under a shift.
-#[derive(Clone, Copy)]
-pub(super) struct Reading<'a> {
-    pub(super) curve: &'a Curve,
-    pub(super) shift: f64,
-}
-
-impl Reading<'_> {
-    pub(super) fn at(&self, nm: f64) -> f64 {
-        self.curve.at(self.shift * nm)
-    }
-
-    pub(super) fn add_cuts(&self, cuts: &mut Vec<f64>) {
-        cuts_nm(self.curve.spectrum(), self.shift, cuts);
-    }
-}
-
-/// Spectral radiance, W·m⁻²·sr⁻¹·nm⁻¹, as the camera would see it directly.
-pub(super) enum Source<'a> {
-    /// A factor times a curve.
-    Curve { factor: f64, reading: Reading<'a> },
-    /// A surface's thermal light.
-    Glow(SeenGlow<'a>),
-    /// A star: a factor times a black body.
-    BlackBody { factor: f64, kelvin: f64 },
-    /// A sky image's colour times D65.
-    Painted {
-        factor: f64,
-        light: ColoredLight,
-        d65: Reading<'a>,
-    },
-    /// Lamps of one spectrum and shift, reflected as diffuse light and as highlight.
-    Lit {
-        light: Reading<'a>,
-        terms: [Option<Reflected<'a>>; 2],
-    },
-}
-
-/// A term of a surface under lamps.
-pub(super) struct Reflected<'a> {
-    pub(super) factor: f64,
-    pub(super) reading: Reading<'a>,
-}
-
-impl Source<'_> {
-    fn at(&self, nm: f64) -> f64 {
-        match self {
-            Self::Curve { factor, reading } => factor * reading.at(nm),
-            Self::Glow(glow) => glow.at(nm),
-            Self::BlackBody { factor, kelvin } => factor * planck::radiance(nm, *kelvin),
-            Self::Painted { factor, light, d65 } => {
-                finite(factor * d65.at(nm)) * light.at(d65.shift * nm)
-            }
-            Self::Lit { light, terms } => {
-                let light = light.at(nm);
-                let terms = terms.iter().flatten();
-                terms
-                    .map(|term| finite(term.factor * light) * term.reading.at(nm))
-                    .sum()
-            }
-        }
-    }
-
-    /// Of what is no product of curves alone, what they leave: [`Source::at`] over an emissivity, or all.
-    pub(super) fn rest_at(&self, nm: f64) -> f64 {
-        match self {
-            Self::Glow(glow) => glow.black_at(nm),
-            Self::BlackBody { .. } | Self::Painted { .. } => self.at(nm),
-            Self::Curve { .. } | Self::Lit { .. } => 1.0,
-        }
-    }
-
-    fn add_cuts(&self, cuts: &mut Vec<f64>) {
-        match self {
-            Self::Curve { reading, .. } => reading.add_cuts(cuts),
-            Self::Glow(glow) => cuts_nm(glow.emissivity.spectrum(), glow.shift, cuts),
-            Self::BlackBody { .. } => {}
-            Self::Painted { d65, .. } => {
-                d65.add_cuts(cuts);
-                cuts.extend(ColoredLight::SUPPORT_NM.map(|nm| nm / d65.shift));
-            }
-            Self::Lit { light, terms } => {
-                light.add_cuts(cuts);
-                let terms = terms.iter().flatten();
-                terms.for_each(|term| term.reading.add_cuts(cuts));
-            }
-        }
-    }
-}
-
-/// A surface by way of which something is seen.
+/// The last surface on a node's way to the camera.
 struct Way<'a> {
     /// Its position among the tree's nodes.
     parent: usize,
-    /// Share of the light that its term is given.
+    /// Share of the light that its lobe is given.
     share: f64,
-    /// What the term leaves; None where it leaves nothing.
-    passed: Option<Reading<'a>>,
-}
-
-impl Way<'_> {
-    fn at(&self, nm: f64) -> f64 {
-        let passed = self.passed.as_ref().map_or(0.0, |reading| reading.at(nm));
-        self.share * passed
-    }
-
-    fn add_cuts(&self, cuts: &mut Vec<f64>) {
-        self.passed
-            .iter()
-            .for_each(|reading| reading.add_cuts(cuts));
-    }
+    /// What the lobe leaves.
+    passed: Reading<'a>,
 }
 
 /// A node of a tree as light.
 struct End<'a> {
+    /// None where the camera sees it directly.
     way: Option<Way<'a>>,
     sources: Vec<Source<'a>>,
 }
@@ -272,10 +162,9 @@ fn through_ways(ends: &[End<'_>], nm: f64) -> f64 {
     let mut sum = 0.0;
     for end in ends {
         // Parents stand before children.
-        let share = end
-            .way
-            .as_ref()
-            .map_or(1.0, |way| left[way.parent] * way.at(nm));
+        let share = end.way.as_ref().map_or(1.0, |way| {
+            left[way.parent] * (way.share * way.passed.at(nm))
+        });
         left.push(share);
         if share > 0.0 {
             sum += share * end.at(nm);

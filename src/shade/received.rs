@@ -1,7 +1,9 @@
-//! How much of a source's light is received under a Doppler factor, and where its curve is read.
+//! Doppler factors meet spectra here: how much of a source's light is received under a Doppler
+//! factor D, and at which wavelength of the source its spectrum is read.
 //!
-//! L_λ/ν⁵-invariance: L(λ) = D⁵ L′(Dλ); a lamp's irradiance is D³ I′(Dλ)/r′² with r′ in the lamp's
-//! rest frame (Rybicki & Lightman 1979 §4.9; Hsiung et al. 1990 §2.5 scale by D² alone).
+//! Spectral radiance: L(λ) = D⁵ L′(Dλ), because L_λ/ν⁵ is invariant. Spectral irradiance of a lamp:
+//! D³ I′(Dλ)/r′², r′ in the lamp's rest frame (Rybicki & Lightman 1979 §4.9; Hsiung et al. 1990
+//! §2.5 scale by D² alone). `effects.beaming` replaces the powers, `effects.doppler` the shift.
 
 use crate::frame::ActiveEffects;
 use crate::shot::Beaming;
@@ -22,51 +24,69 @@ impl Received {
         }
     }
 
+    /// Whether spectra shift.
+    pub(super) fn shifts(self) -> bool {
+        self.doppler
+    }
+
+    /// Light under the Doppler factor `d`, the frequency received over that sent; above 0.
+    #[inline(always)]
+    pub fn under(self, d: f64) -> Doppler {
+        Doppler { d, received: self }
+    }
+}
+
+/// A Doppler factor with the powers and the shift that the image makes of it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Doppler {
+    d: f64,
+    received: Received,
+}
+
+impl Doppler {
     /// Factor on spectral radiance: D⁵, D² or 1; finite.
     #[inline(always)]
-    pub fn radiance(self, d: f64) -> f64 {
-        match self.beaming {
+    pub fn radiance(self) -> f64 {
+        let d = self.d;
+        match self.received.beaming {
             Beaming::Full => finite((d * d) * (d * d) * d),
             Beaming::Square => finite(d * d),
             Beaming::Off => 1.0,
         }
     }
 
-    /// Factor on a black body of temperature D·T, which is what one of temperature T becomes
-    /// under D⁵ (B(λ, DT) = D⁵ B(Dλ, T)); on one of temperature T where curves do not shift.
+    /// Factor on the spectrum of a black body at D·T, which stands for one at T under D⁵:
+    /// B(λ, DT) = D⁵ B(Dλ, T). Where spectra do not shift, factor on that of one at T.
     #[inline(always)]
-    pub fn black_body(self, d: f64) -> f64 {
-        match (self.doppler, self.beaming) {
-            (false, _) => self.radiance(d),
+    pub fn black_body(self) -> f64 {
+        let d = self.d;
+        match (self.received.doppler, self.received.beaming) {
+            (false, _) => self.radiance(),
             (true, Beaming::Full) => 1.0,
             (true, Beaming::Square) => finite(1.0 / (d * d * d)),
             (true, Beaming::Off) => finite(1.0 / ((d * d) * (d * d) * d)),
         }
     }
 
-    /// Factor on a lamp's spectral irradiance: D³, D² or 1.
+    /// Factor on a lamp's spectral irradiance: D³, D² or 1; finite.
     #[inline(always)]
-    pub fn irradiance(self, d: f64) -> f64 {
-        match self.beaming {
+    pub fn irradiance(self) -> f64 {
+        let d = self.d;
+        match self.received.beaming {
             Beaming::Full => finite(d * d * d),
             Beaming::Square => finite(d * d),
             Beaming::Off => 1.0,
         }
     }
 
-    /// Whether curves shift.
-    pub(super) fn shifts(self) -> bool {
-        self.doppler
-    }
-
-    /// The factor by which wavelengths are read at the source: D, or 1 where curves do not shift.
+    /// The source's wavelength over the received one: D, or 1 where spectra do not shift.
     #[inline(always)]
-    pub fn shift(self, d: f64) -> f64 {
-        if self.doppler { d } else { 1.0 }
+    pub fn shift(self) -> f64 {
+        if self.received.doppler { self.d } else { 1.0 }
     }
 }
 
-/// Held to the largest number: infinitely much of nothing would be no number.
+/// At most the largest number: an infinite radiance times 0 would not be a number.
 #[inline(always)]
 pub(super) fn finite(value: f64) -> f64 {
     value.min(f64::MAX)

@@ -6,15 +6,16 @@
 //! the sensor is the CIE's over the visible, XYZ is the colour's own; both ways agree within
 //! [`AGREEMENT`].
 
-use super::bake::{Bake, Sight};
+use super::bake::Bake;
 use super::curve::Curve;
-use super::exact::{Reading, Source};
-use super::received::{Received, finite};
-use super::thermal::BlackBodies;
+use super::integrand::{Reading, Source};
+use super::material::EmitterTable;
+use super::received::{Doppler, finite};
+use super::thermal::BlackbodyTable;
 use crate::color::spaces::{Matrix, RGB_FROM_XYZ, XYZ_FROM_RGB, apply};
 use crate::scene::Background;
 use crate::scene::sky::{SkyImage, Stars};
-use crate::spectrum::{ColoredLight, Sensor, illuminant, planck};
+use crate::spectrum::{ColoredLight, LogAxis, Sensor, illuminant, planck};
 use glam::DVec3;
 use std::sync::Arc;
 
@@ -36,35 +37,39 @@ const JUDGED: [[f64; 3]; 8] = [
 
 /// The sky of one image, ready to be looked at.
 pub(super) struct SkyShade {
-    constant: Option<Sight>,
-    image: Option<Painted>,
-    stars: Option<(Arc<Stars>, Arc<BlackBodies>)>,
+    constant: Option<EmitterTable>,
+    image: Option<SkyImageLight>,
+    stars: Option<(Arc<Stars>, Arc<BlackbodyTable>)>,
 }
 
 impl SkyShade {
     /// Prepares a sky's curves. `bodies` are there if it has stars.
-    pub(super) fn new(sky: &Background, bake: &Bake<'_>, bodies: Option<Arc<BlackBodies>>) -> Self {
+    pub(super) fn new(
+        sky: &Background,
+        bake: &Bake<'_>,
+        bodies: Option<Arc<BlackbodyTable>>,
+    ) -> Self {
         let lit = sky.scale > 0.0;
         let constant = sky.spectrum.as_ref().filter(|_| lit).map(|spectrum| {
             let curve = bake.curve(spectrum, sky.scale, f64::INFINITY);
-            bake.sight(curve, bake.settings.reach)
+            bake.emitter_table(curve, bake.settings.reach)
         });
         let image = sky.image.as_ref().filter(|_| lit);
         Self {
             constant,
-            image: image.map(|image| Painted::new(Arc::clone(image), sky.scale, bake)),
+            image: image.map(|image| SkyImageLight::new(Arc::clone(image), sky.scale, bake)),
             stars: sky.stars.clone().zip(bodies),
         }
     }
 
     /// Memory of its curves, bytes.
     pub(super) fn bytes(&self) -> usize {
-        self.constant.as_ref().map_or(0, Sight::bytes)
+        self.constant.as_ref().map_or(0, EmitterTable::bytes)
             + self.image.as_ref().map_or(0, |image| image.d65.bytes())
     }
 
     /// The spectrum that is the same all around.
-    pub(super) fn constant(&self) -> Option<&Sight> {
+    pub(super) fn constant(&self) -> Option<&EmitterTable> {
         self.constant.as_ref()
     }
 
@@ -74,23 +79,22 @@ impl SkyShade {
     pub(super) fn xyz(
         &self,
         direction: DVec3,
-        doppler: f64,
-        received: Received,
+        doppler: Doppler,
         sensor: &Sensor,
         scratch: &mut [f32],
     ) -> [f64; 3] {
         let mut sum = [0.0; 3];
         let mut add = |xyz: [f64; 3]| (0..3).for_each(|c| sum[c] += xyz[c]);
-        if let Some(sight) = &self.constant {
-            add(sight.xyz(doppler, received, sensor, scratch));
+        if let Some(own) = &self.constant {
+            add(own.xyz(doppler, sensor, scratch));
         }
         if let Some(image) = &self.image {
-            add(image.xyz(direction, doppler, received, sensor, scratch));
+            add(image.xyz(direction, doppler, sensor, scratch));
         }
         if let Some((stars, bodies)) = &self.stars {
             for star in stars.seen(direction) {
-                let factor = finite(star.scale * received.black_body(doppler));
-                let kelvin = finite(received.shift(doppler) * star.temperature_k);
+                let factor = finite(star.scale * doppler.black_body());
+                let kelvin = finite(doppler.shift() * star.temperature_k);
                 add(bodies.xyz(kelvin).map(|v| v * factor));
             }
         }
@@ -101,29 +105,28 @@ impl SkyShade {
     pub(super) fn add(
         &self,
         direction: DVec3,
-        doppler: f64,
-        received: Received,
-        sensor: &Sensor,
+        doppler: Doppler,
+        axis: LogAxis,
         out: &mut [f64],
         scratch: &mut [f32],
     ) {
-        if let Some(sight) = &self.constant {
-            sight.add(doppler, received, out, scratch);
+        if let Some(own) = &self.constant {
+            own.add(doppler, out, scratch);
         }
         if let Some(image) = &self.image {
-            let shift = received.shift(doppler);
+            let shift = doppler.shift();
             let factor = image.read(image.image.rgb(direction), shift, scratch);
-            let factor = finite(factor * received.radiance(doppler));
+            let factor = finite(factor * doppler.radiance());
             for (out, shape) in out.iter_mut().zip(&*scratch) {
                 *out += factor * f64::from(*shape);
             }
         }
         if let Some((stars, _)) = &self.stars {
             for star in stars.seen(direction) {
-                let factor = finite(star.scale * received.black_body(doppler));
-                let kelvin = finite(received.shift(doppler) * star.temperature_k);
+                let factor = finite(star.scale * doppler.black_body());
+                let kelvin = finite(doppler.shift() * star.temperature_k);
                 for (j, out) in out.iter_mut().enumerate() {
-                    let nm = sensor.axis().wavelength_nm(j as f64);
+                    let nm = axis.wavelength_nm(j as f64);
                     *out += factor * planck::radiance(nm, kelvin);
                 }
             }
@@ -134,17 +137,16 @@ impl SkyShade {
     pub(super) fn add_sources<'a>(
         &'a self,
         direction: DVec3,
-        doppler: f64,
-        received: Received,
+        doppler: Doppler,
         sources: &mut Vec<Source<'a>>,
     ) {
-        let (power, shift) = (received.radiance(doppler), received.shift(doppler));
+        let (power, shift) = (doppler.radiance(), doppler.shift());
         let reading = |curve: &'a Curve| Reading { curve, shift };
-        sources.extend(self.constant.as_ref().map(|sight| Source::Curve {
+        sources.extend(self.constant.as_ref().map(|own| Source::Curve {
             factor: power,
-            reading: reading(&sight.curve),
+            reading: reading(&own.curve),
         }));
-        sources.extend(self.image.as_ref().map(|image| Source::Painted {
+        sources.extend(self.image.as_ref().map(|image| Source::Image {
             factor: finite(image.scale * power),
             light: ColoredLight::new(image.image.rgb(direction)),
             d65: reading(&image.d65),
@@ -154,14 +156,14 @@ impl SkyShade {
             .iter()
             .flat_map(|(stars, _)| stars.seen(direction));
         sources.extend(stars.map(|star| Source::BlackBody {
-            factor: finite(star.scale * received.black_body(doppler)),
+            factor: finite(star.scale * doppler.black_body()),
             kelvin: finite(shift * star.temperature_k),
         }));
     }
 }
 
 /// An image as light.
-struct Painted {
+struct SkyImageLight {
     image: Arc<SkyImage>,
     scale: f64,
     d65: Curve,
@@ -170,20 +172,20 @@ struct Painted {
     xyz_from_rgb: Option<Matrix>,
 }
 
-impl Painted {
+impl SkyImageLight {
     fn new(image: Arc<SkyImage>, scale: f64, bake: &Bake<'_>) -> Self {
         let sensor = bake.sensor;
         let d65 = Arc::new(illuminant("D65").expect("D65 has a table"));
         let wavelengths_nm = sensor.axis().wavelengths_nm();
-        let mut painted = Self {
+        let mut light_of = Self {
             image,
             scale,
             d65: bake.smooth_curve(&d65, 1.0, f64::INFINITY),
             wavelengths_nm: wavelengths_nm.iter().map(|nm| *nm as f32).collect(),
             xyz_from_rgb: None,
         };
-        painted.xyz_from_rgb = painted.own_colors(sensor);
-        painted
+        light_of.xyz_from_rgb = light_of.own_colors(sensor);
+        light_of
     }
 
     /// XYZ of a colour without its curve, by the sensor's own white: None if this sensor's XYZ of
@@ -209,14 +211,13 @@ impl Painted {
     fn xyz(
         &self,
         direction: DVec3,
-        doppler: f64,
-        received: Received,
+        doppler: Doppler,
         sensor: &Sensor,
         shape: &mut [f32],
     ) -> [f64; 3] {
         let rgb = self.image.rgb(direction);
-        let shift = received.shift(doppler);
-        let power = received.radiance(doppler);
+        let shift = doppler.shift();
+        let power = doppler.radiance();
         let (xyz, factor) = match &self.xyz_from_rgb {
             Some(matrix) if shift == 1.0 => (apply(matrix, rgb), self.scale),
             _ => {

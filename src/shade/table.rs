@@ -133,3 +133,11 @@ pub(super) fn interesting(axis: LogAxis, reach: f64, support_nm: Option<[f64; 2]
     let low = low.max(-reach).min(reach);
     [low, high.min(reach).max(low)]
 }
+
+/// Adds channels times a factor.
+#[inline(always)]
+pub(super) fn add(sum: &mut [f64; 3], value: [f64; 3], factor: f64) {
+    for (sum, value) in sum.iter_mut().zip(value) {
+        *sum += value * factor;
+    }
+}

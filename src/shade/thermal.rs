@@ -1,16 +1,17 @@
-//! Thermal light. A black body at T seen under D is a black body at D·T with the power of D that
-//! beaming leaves over, D⁵ B(Dλ, T) = B(λ, DT), so one curve serves every temperature.
+//! Thermal light. A black body at T received under D is a black body at D·T: D⁵ B(Dλ, T) = B(λ, DT).
+//! So one table over temperature serves all black bodies under all Doppler factors; under other
+//! powers of D what is left over is a factor.
 
 use super::curve::{Curve, write_shape};
-use super::received::{Received, finite};
+use super::received::{Doppler, finite};
 use super::table::XyzTable;
 use crate::scene::{self, Thermal};
 use crate::spectrum::{LogAxis, Sensor, catmull_rom, planck};
 use std::sync::OnceLock;
 
-/// XYZ, or band totals, of black bodies by temperature: the logarithms of the three over ln T.
-pub(super) struct BlackBodies {
-    /// Made where they are first asked for: curves alone need none.
+/// The sensor's channels of black bodies: the logarithms of the three over ln T.
+pub(super) struct BlackbodyTable {
+    /// Made when they are first asked for: spectral radiance needs none.
     entries: OnceLock<Vec<[f64; 3]>>,
     sensor: Sensor,
     coldest_k: f64,
@@ -32,7 +33,7 @@ const DARK: f64 = 1e-300;
 /// at 200. Over the widest windows there are 8000 entries.
 const PER_UNIT: f64 = 100.0;
 
-impl BlackBodies {
+impl BlackbodyTable {
     pub(super) fn new(sensor: &Sensor) -> Self {
         let [shortest, longest] = sensor.axis().window_nm();
         Self {
@@ -104,17 +105,17 @@ impl BlackBodies {
     }
 }
 
-/// A material's thermal light.
-pub(super) struct Glow {
+/// Thermal light of a material: emissivity times Planck's curve.
+pub(super) struct BlackbodySpectrum {
     temperature_k: f64,
     emissivity: Curve,
-    /// 1, or what brings the peak to the strength asked for.
+    /// 1, or what brings the peak of Planck's curve to the strength that the shot gives.
     scale: f64,
-    /// XYZ, or band totals, by ln D, for an emissivity that varies over wavelengths.
+    /// The sensor's channels over ln D, for an emissivity that varies over wavelengths.
     table: Option<XyzTable>,
 }
 
-impl Glow {
+impl BlackbodySpectrum {
     pub(super) fn new(thermal: &Thermal, emissivity: Curve) -> Self {
         let scale = match thermal.curve {
             scene::Curve::Absolute => 1.0,
@@ -160,7 +161,7 @@ impl Glow {
         self.table.as_ref().map_or(0, XyzTable::bytes)
     }
 
-    /// Spectral radiance at a wavelength (nm) in the rest frame of what glows; finite.
+    /// Spectral radiance at a wavelength (nm) in the surface's rest frame; finite.
     pub(super) fn at(&self, nm: f64) -> f64 {
         finite(self.scale * self.emissivity.at(nm) * planck::radiance(nm, self.temperature_k))
     }
@@ -174,26 +175,25 @@ impl Glow {
         write_shape(value, out)
     }
 
-    /// XYZ, or band totals, under the Doppler factor `d`.
+    /// The sensor's channels of the light as it is received. `scratch` has the length of the axis.
     pub(super) fn xyz(
         &self,
-        d: f64,
-        received: Received,
+        doppler: Doppler,
         sensor: &Sensor,
-        bodies: &BlackBodies,
+        bodies: &BlackbodyTable,
         scratch: &mut [f32],
     ) -> [f64; 3] {
-        let shift = received.shift(d);
+        let shift = doppler.shift();
         if let Some(emissivity) = self.emissivity.constant() {
-            let factor = (emissivity * self.scale * received.black_body(d)).min(f64::MAX);
+            let factor = (emissivity * self.scale * doppler.black_body()).min(f64::MAX);
             return bodies.xyz(shift * self.temperature_k).map(|v| v * factor);
         }
-        let factor = (self.scale * received.radiance(d)).min(f64::MAX);
+        let factor = (self.scale * doppler.radiance()).min(f64::MAX);
         if let Some(table) = &self.table {
             return table.at(shift.ln()).map(|v| v * factor);
         }
         if let Some(narrow) = self.emissivity.narrow() {
-            let seen = self.seen(d, received);
+            let seen = self.received(doppler);
             let black = |node| seen.black_at(narrow.wavelength_nm(node));
             return narrow.times(shift.ln(), black, scratch, |shape| {
                 write_shape(
@@ -206,9 +206,9 @@ impl Glow {
         sensor.xyz_of_shape(scratch).map(|v| v * peak * factor)
     }
 
-    /// Adds the spectral radiance under the Doppler factor `d` at the axis' wavelengths.
-    pub(super) fn add(&self, d: f64, received: Received, axis: LogAxis, out: &mut [f64]) {
-        let seen = self.seen(d, received);
+    /// Adds the spectral radiance received at the axis' wavelengths.
+    pub(super) fn add(&self, doppler: Doppler, axis: LogAxis, out: &mut [f64]) {
+        let seen = self.received(doppler);
         if self.emissivity.narrow().is_some() {
             let mut shares = vec![0.0; axis.count()];
             let peak = self.emissivity.read(seen.shift, &mut shares);
@@ -222,16 +222,16 @@ impl Glow {
         }
     }
 
-    /// What it is made of: its temperature (K) and its emissivity.
+    /// Temperature (K) and emissivity.
     pub(super) fn parts(&self) -> (f64, &Curve) {
         (self.temperature_k, &self.emissivity)
     }
 
-    /// As it is received under the Doppler factor `d`.
-    pub(super) fn seen(&self, d: f64, received: Received) -> SeenGlow<'_> {
-        let shift = received.shift(d);
-        SeenGlow {
-            factor: (self.scale * received.black_body(d)).min(f64::MAX),
+    /// As it is received.
+    pub(super) fn received(&self, doppler: Doppler) -> ReceivedBlackbody<'_> {
+        let shift = doppler.shift();
+        ReceivedBlackbody {
+            factor: (self.scale * doppler.black_body()).min(f64::MAX),
             // A black body at T seen under D is one at D·T: no power of D is left to overflow.
             kelvin: shift * self.temperature_k,
             emissivity: &self.emissivity,
@@ -241,14 +241,14 @@ impl Glow {
 }
 
 /// Thermal light as it is received.
-pub(super) struct SeenGlow<'a> {
+pub(super) struct ReceivedBlackbody<'a> {
     factor: f64,
     kelvin: f64,
     pub(super) emissivity: &'a Curve,
     pub(super) shift: f64,
 }
 
-impl SeenGlow<'_> {
+impl ReceivedBlackbody<'_> {
     /// Spectral radiance at a wavelength, W·m⁻²·sr⁻¹·nm⁻¹.
     pub(super) fn at(&self, nm: f64) -> f64 {
         self.factor * self.emissivity.at(self.shift * nm) * planck::radiance(nm, self.kelvin)

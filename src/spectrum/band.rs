@@ -1,20 +1,21 @@
-//! How much each wavelength of an axis counts in the integral over a part of its window.
+//! Weights of an axis' wavelengths in the integral over a part of its window.
 //!
 //! Between wavelengths a curve is taken to be the cubic of [`catmull_rom`] in ln λ; in the half bin
-//! at either end of the window it is the parabola through the three wavelengths there. Integrals
-//! over λ of parabolas in ln λ are exact so, those of a constant above all. The error of others
-//! falls with the fourth power of the spacing (`tests/window.rs`): 84 wavelengths in the visible
-//! leave 3e-8 of a black body's band; spread over three decades 3e-4, in Wien's part 2e-3.
+//! at either end of the window, the parabola through the three wavelengths there. Integrals over λ
+//! of parabolas in ln λ, and of constants above all, are then exact. The error of others falls with
+//! the fourth power of the spacing (`tests/window.rs`): 84 wavelengths in the visible leave 3e-8 of
+//! a black body's band; spread over three decades 3e-4, in Wien's part 2e-3.
 
 use super::cubic::catmull_rom;
 use super::log_grid::LogAxis;
 
-/// Longest piece, in ln λ, that one set of [`gauss`] nodes covers: the integrand is a cubic times
-/// e^(ln λ), whose tenth derivative is all that the rule misses, below 1e-15 there.
+/// Longest piece, in ln λ, for one set of [`gauss`] nodes: the integrand is a cubic times e^(ln λ),
+/// and the error of the rule is its tenth derivative, below 1e-15 there.
 const PIECE: f64 = 0.1;
 
 /// Weights, nm, of an axis' wavelengths in the integral over λ between two places of its window
-/// (in units of the spacing from the first wavelength, ascending). The axis has at least three.
+/// (ascending, in units of the spacing from the first wavelength). The axis has at least three
+/// wavelengths.
 pub(super) fn weights(axis: LogAxis, [from, to]: [f64; 2]) -> Vec<f64> {
     let mut weights = vec![0.0; axis.count()];
     for cell in from.floor() as i64..to.ceil() as i64 {
@@ -37,8 +38,8 @@ pub(super) fn weights(axis: LogAxis, [from, to]: [f64; 2]) -> Vec<f64> {
     weights
 }
 
-/// Adds to the weight of a wavelength; of one beyond the ends, to those of the parabola that
-/// stands for it.
+/// Adds to the weight of a wavelength or, if that lies beyond the ends, to the weights of the
+/// parabola that continues the curve there.
 fn add(weights: &mut [f64], j: i64, weight: f64) {
     let last = weights.len() as i64 - 1;
     debug_assert!(last >= 2, "a parabola goes through three points");
@@ -50,7 +51,7 @@ fn add(weights: &mut [f64], j: i64, weight: f64) {
         weights[j as usize] += weight;
         return;
     };
-    // Lagrange's polynomials of nodes 0, 1 and 2, counted inwards, at −beyond.
+    // Lagrange's polynomials of nodes 0, 1 and 2, counted inward, at −beyond.
     let parts = [
         (beyond + 1.0) * (beyond + 2.0) / 2.0,
         -beyond * (beyond + 2.0),
@@ -61,7 +62,7 @@ fn add(weights: &mut [f64], j: i64, weight: f64) {
     }
 }
 
-/// Nodes and weights of Gauss and Legendre's rule of five points on −1 to 1 (Abramowitz & Stegun
+/// Nodes and weights of the Gauss-Legendre rule of five points on −1 to 1 (Abramowitz & Stegun
 /// 1964, 25.4.30).
 pub(super) fn gauss() -> [(f64, f64); 5] {
     let node = |sign: f64| (5.0 + sign * 2.0 * (10.0_f64 / 7.0).sqrt()).sqrt() / 3.0;

@@ -1,18 +1,19 @@
-//! How far sums over a sensor's axis can be from integrals: a bound that holds under any shifts.
+//! Bound on the difference between sums over a sensor's axis and integrals, valid under any shifts.
 //!
 //! The sum's error E(f) = ∫ w f dλ − Σ Wⱼ f(λⱼ) is linear in f, and 0, or nearly so, for constants,
-//! lines and parabolas in u = ln λ. So with Taylor's formula from the window's lower end t₀ up
-//! (Peano 1913; Davis 1975, Interpolation and Approximation, §3.7)
+//! lines and parabolas in u = ln λ. By Taylor's formula from the window's lower end t₀ up (Peano
+//! 1913; Davis 1975, Interpolation and Approximation, §3.7)
 //!
 //! E(f) = Σᵢ Kᵢ₊₁(t₀) f⁽ⁱ⁾(t₀) + ∫ Kₘ(t) f⁽ᵐ⁾(t) dt, i < m,  |∫ Kₘ f⁽ᵐ⁾| ≤ max |Kₘ| · V(f⁽ᵐ⁻¹⁾),
 //!
 //! where Kₘ(t) is E of (u − t)₊ᵐ⁻¹/(m − 1)! and V the total variation. V does not change when f is
 //! shifted, so neither does the bound. The best of m = 1, 2 and 3 counts: a jump has m = 1 and an
-//! error that falls with the spacing h, a bend m = 2 and h², what is smooth m = 3 and h³. Kernels
+//! error that falls with the spacing h, a bend m = 2 and h², a smooth curve m = 3 and h³. Kernels
 //! come from the sensor's own weights, variations from curves sampled finer than h.
 //!
-//! Added are, by the same reasoning, the smoothing of curves through points, linear interpolation between the phases of baked curves, cubic
-//! interpolation in tables over ln D, and rounding to f32.
+//! By the same reasoning it includes the smoothing of curves through points, linear interpolation
+//! between the phases of baked curves, cubic interpolation in tables over ln D, and rounding to
+//! f32.
 
 use super::log_grid::{PHASE_SPACING, Smoothing};
 use super::narrow_bound::{F32, NarrowKernel};
@@ -21,16 +22,17 @@ use super::roughness::{Roughness, nothing_of};
 use super::sensor::Sensor;
 use super::through::Responses;
 
-/// Steps between two wavelengths in which kernels are integrated: their error is below 1 %.
+/// Steps between two wavelengths in which kernels are integrated, to an error below 1 %.
 const KERNEL_STEPS: i64 = 128;
 
-/// What sampled variations may lack, and kernels: both converge from below.
+/// Factor for the error of sampled variations and kernels, which both converge from below.
 const SAFETY: f64 = 1.1;
 
-/// By how much smoothing may raise variations and derivatives: the sum of its kernel's sizes.
+/// Factor by which smoothing may raise variations and derivatives: the integral of its kernel's
+/// absolute value.
 const SMOOTHED: f64 = 7.0 / 6.0;
 
-/// What a sensor's sums can be off.
+/// Bounds on the error of a sensor's sums.
 #[derive(Debug, Clone)]
 pub struct GridBound {
     channels: [Kernel; 3],
@@ -39,7 +41,8 @@ pub struct GridBound {
     table_spacing: Option<f64>,
 }
 
-/// The error of one channel, over that channel of an equal-energy white of value 1.
+/// Kernels of the error of one channel, relative to that channel of an equal-energy white of value
+/// 1.
 #[derive(Debug, Clone, Copy, Default)]
 struct Kernel {
     /// |Kₘ| at the window's lower end.
@@ -53,8 +56,8 @@ struct Kernel {
 }
 
 impl GridBound {
-    /// Of a sensor's weights against the quadrature of the same channels, where curves are baked and
-    /// XYZ of curves is tabulated in steps of `table_spacing` in ln D, if it is.
+    /// The bounds of a sensor's weights against the quadrature of the same channels. Curves are
+    /// baked; if XYZ of curves is tabulated in ln D, `table_spacing` is the step.
     pub fn new(sensor: &Sensor, quadrature: &Quadrature, table_spacing: Option<f64>) -> Self {
         let axis = sensor.axis();
         let step = axis.spacing() / KERNEL_STEPS as f64;
@@ -110,13 +113,13 @@ impl GridBound {
         }
     }
 
-    /// Steps in ln λ in which a curve is to be sampled for [`Roughness`].
+    /// Steps in ln λ in which a curve has to be sampled for [`Roughness`].
     pub fn step(&self) -> f64 {
         0.25 * self.spacing
     }
 
-    /// The largest error of a channel of the product of curves, each under any shift, over that
-    /// channel of an equal-energy light as bright as the product of their peaks.
+    /// The largest error of a channel of the product of curves, each under any shift, relative to
+    /// that channel of an equal-energy light as bright as the product of their peaks.
     pub fn relative(&self, factors: &[Roughness]) -> f64 {
         let error = |kernel: &Kernel| self.channel(kernel, factors);
         SAFETY * self.channels.iter().map(error).fold(0.0, f64::max)
@@ -145,12 +148,12 @@ impl GridBound {
         });
         // Sums of eight lanes, and a few operations on each value.
         let rounding = F32 * (self.wavelengths / 8.0 + 16.0) * kernel.weights;
-        // Cubic taps carry the errors of their entries by at most 1.25.
+        // Cubic taps amplify the errors of their entries by at most 1.25.
         sum + 1.25 * (phases + rounding) + tables
     }
 
-    /// All light of a product of which a narrow curve is one: what is at stake where another is, and
-    /// they are not integrated together.
+    /// All light of a product with a narrow curve: the largest possible error if another curve is
+    /// narrow too and both are not integrated together.
     pub fn all_light(&self, factors: &[Roughness]) -> f64 {
         let window = self.spacing * self.wavelengths;
         let area = factors.iter().map(|f| f.area).fold(window, f64::min);
@@ -158,7 +161,7 @@ impl GridBound {
         SAFETY * area * self.channels.iter().map(most).fold(0.0, f64::max)
     }
 
-    /// Where a curve is narrow. Two that are count as integrated together.
+    /// The error if a curve is narrow. Two narrow curves count as integrated together.
     fn narrow(&self, kernel: &Kernel, factors: &[Roughness]) -> f64 {
         let narrow = factors.iter().filter(|f| f.narrow);
         let area = narrow.map(|f| f.area).fold(f64::INFINITY, f64::min);
@@ -170,8 +173,8 @@ impl GridBound {
         area.min(self.spacing * self.wavelengths) * (errors.sum::<f64>() + kernel.narrow.own())
     }
 
-    /// Of lines between the phases of a baked curve: |f − If| ≤ V, δ/4 V(f′), δ²/8 max |f″|. The
-    /// pieces that different wavelengths read do not overlap.
+    /// The error of linear interpolation between the phases of a baked curve: |f − If| ≤ V, δ/4
+    /// V(f′), δ²/8 max |f″|. The pieces that different wavelengths read do not overlap.
     fn phases(&self, kernel: &Kernel, f: &Roughness) -> f64 {
         let step = self.spacing * PHASE_SPACING;
         let [jump, bend, _] = f.variation;
@@ -180,7 +183,7 @@ impl GridBound {
             .min(kernel.weights * step * step / 8.0 * f.largest[2])
     }
 
-    /// Of curves that are smoothed: their sum of |f̃ − f|, each at the largest weight.
+    /// The error of smoothing: the sum of |f̃ − f|, each at the largest weight.
     fn smoothing(&self, kernel: &Kernel, f: &Roughness) -> f64 {
         if f.smoothing == Smoothing::None {
             return 0.0;
@@ -194,8 +197,8 @@ impl GridBound {
         kernel.weight * least
     }
 
-    /// Of Catmull and Rom's cubic between the entries of a table: its kernels are at most 1.13, δ/4
-    /// and δ²/10. The three steps that it spans overlap for wavelengths that are nearer.
+    /// The error of the Catmull-Rom cubic between the entries of a table: its kernels are at most
+    /// 1.13, δ/4 and δ²/10. The three steps that it spans overlap for wavelengths that are closer.
     fn tables(&self, kernel: &Kernel, product: &Roughness, step: f64) -> f64 {
         let overlap = (3.0 * step / self.spacing).floor() + 1.0;
         let [jump, bend, twist] = product.variation;

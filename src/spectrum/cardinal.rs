@@ -1,28 +1,29 @@
-//! The paper's curve: a cardinal cubic spline through the points that the author wrote.
+//! The curve of the 1990 paper: a cardinal cubic spline through authored points.
 //!
-//! Wavelengths in nm; values are dimensionless or a radiance, never negative. Between two points a
-//! cubic Hermite; what it overshoots below 0 is clamped to 0. Above it is left alone: that a
-//! reflectance stays below 1 is for the caller, who knows that it is one.
+//! Wavelengths in nm; values are dimensionless or a radiance, never negative. The curve between two
+//! points is a cubic Hermite, clamped at 0. It is not clamped above: that a reflectance stays below
+//! 1 is up to the caller, who knows that it is one.
 
 use super::SpectrumError;
 use super::points::{Beyond, check_points};
 
-/// A cardinal cubic spline on knots that need not be equally spaced.
+/// A cardinal cubic spline on knots of any spacing.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Cardinal {
     knots_nm: Vec<f64>,
     /// For each interval a, b, c, d of a + bu + cu² + du³, u from 0 to 1.
     cubics: Vec<[f64; 4]>,
-    /// The values at the first and the last knot, or 0 if the curve ends there.
+    /// The values before the first and after the last knot.
     ends: [f64; 2],
 }
 
 impl Cardinal {
-    /// The spline through (nm, value) `points`, strictly ascending in nm, values from 0 to 1e300.
+    /// The spline through (nm, value) `points`, strictly ascending in nm, with values from 0 to
+    /// 1e300.
     ///
-    /// At point i it has the slope (1 − tension)·(pᵢ₊₁ − pᵢ₋₁)/(xᵢ₊₁ − xᵢ₋₁), at the ends the
-    /// one-sided difference times (1 − tension). `tension` is from 0 (Catmull and Rom 1974) to 1
-    /// (level at every point). A single point makes a constant.
+    /// Its slope at point i is (1 − tension)·(pᵢ₊₁ − pᵢ₋₁)/(xᵢ₊₁ − xᵢ₋₁), at the ends the one-sided
+    /// difference times (1 − tension). `tension` is from 0 (Catmull & Rom 1974) to 1 (level at
+    /// every point). A single point makes a constant.
     pub fn new(points: &[(f64, f64)], tension: f64, beyond: Beyond) -> Result<Self, SpectrumError> {
         check_points(points)?;
         if !(0.0..=1.0).contains(&tension) {
@@ -50,7 +51,7 @@ impl Cardinal {
             Beyond::Zero => [0.0, 0.0],
         };
         let mut cubics: Vec<_> = (0..last).map(cubic).collect();
-        // The last knot is the start of an interval too, of no width.
+        // The last knot also starts an interval, of no width.
         cubics.push([points[last].1, 0.0, 0.0, 0.0]);
         Ok(Self {
             knots_nm: points.iter().map(|point| point.0).collect(),
@@ -59,12 +60,12 @@ impl Cardinal {
         })
     }
 
-    /// The curve at a wavelength, at least 0.
+    /// The curve at a wavelength in nm, at least 0.
     pub fn at(&self, lambda_nm: f64) -> f64 {
         self.unclamped(lambda_nm).max(0.0)
     }
 
-    /// The spline itself, which overshoots: through 0, 0, 1, 0, 0 it dips to −2/27.
+    /// The spline before clamping: through 0, 0, 1, 0, 0 it dips to −2/27.
     pub fn unclamped(&self, lambda_nm: f64) -> f64 {
         let after = self.knots_nm.partition_point(|&knot| knot <= lambda_nm);
         let last = self.knots_nm.len() - 1;
@@ -81,12 +82,12 @@ impl Cardinal {
         }
     }
 
-    /// The points' wavelengths, nm.
+    /// Wavelengths of the points, nm.
     pub fn knots_nm(&self) -> &[f64] {
         &self.knots_nm
     }
 
-    /// The curve's greatest value, between points too.
+    /// The greatest value of the curve, also between points.
     pub fn peak(&self) -> f64 {
         self.cubics
             .iter()
@@ -95,9 +96,9 @@ impl Cardinal {
     }
 }
 
-/// The values of a + bu + cu² + du³ at 0 and where it turns within (0, 1).
+/// The values of a + bu + cu² + du³ at 0 and at its extrema within (0, 1).
 fn summits([a, b, c, d]: [f64; 4]) -> [f64; 3] {
-    // Where it turns does not depend on scale, and squares of the largest values would overflow.
+    // Extrema do not depend on scale, and squares of the largest values would overflow.
     let size = b.abs().max(c.abs()).max(d.abs());
     let [slope, bend, twist] = [b / size, c / size, d / size];
     let root = (bend * bend - 3.0 * slope * twist).max(0.0).sqrt();

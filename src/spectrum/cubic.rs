@@ -1,6 +1,6 @@
-//! The cubic between equally spaced values.
+//! The Catmull-Rom cubic between equally spaced values.
 
-/// Weights of the four neighbours of a point a fraction t past the second (Catmull & Rom 1974).
+/// Weights of the four neighbors of a point a fraction t past the second (Catmull & Rom 1974).
 pub fn catmull_rom(t: f64) -> [f64; 4] {
     let (t2, t3) = (t * t, t * t * t);
     [

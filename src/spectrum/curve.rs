@@ -1,11 +1,24 @@
-//! A curve over wavelength, of whatever kind.
+//! A curve over wavelength, of any kind.
 
 use super::{Cardinal, PlanckShape, Sampled, SpectrumError, Tinted, Uplift};
 
-/// How many widths from its center a gaussian falls below 1e-30 of its peak (e⁻⁷² = 5e-32).
+/// Number of widths from its center at which a Gaussian is below 1e-30 of its peak (e⁻⁷² = 5e-32).
 const GAUSSIAN_REACH: f64 = 12.0;
 
-/// A curve over wavelength, in whatever unit its user scales it to.
+/// A curve over wavelength, in any unit to which its user scales it.
+///
+/// # Example
+/// A green paint under a tungsten lamp, at 550 nm, and with the lamp blue-shifted by D = 1.2.
+/// ```
+/// use restframe::spectrum::{Spectrum, illuminant};
+///
+/// let paint = Spectrum::gaussian(550.0, 30.0)?;
+/// let lamp = illuminant("A").ok_or("there is no illuminant A")?;
+/// let at_rest = paint.at(550.0) * lamp.at(550.0);
+/// let approaching = paint.at(550.0) * lamp.at(1.2 * 550.0); // read at D·λ
+/// assert!(approaching > at_rest); // tungsten is brighter in the red
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Debug, Clone, PartialEq)]
 pub enum Spectrum {
     /// The same everywhere; finite and at least 0.
@@ -16,9 +29,9 @@ pub enum Spectrum {
     Planck(PlanckShape),
     /// exp(−(λ − center)²/(2 width²)): a peak of 1.
     Gaussian {
-        /// Where the peak is, nm.
+        /// Wavelength of the peak, nm.
         center_nm: f64,
-        /// Standard deviation, nm; more than 0.
+        /// Standard deviation, nm; above 0.
         width_nm: f64,
     },
     /// Straight lines through measured points.
@@ -30,7 +43,7 @@ pub enum Spectrum {
 }
 
 impl Spectrum {
-    /// The curve at a wavelength (nm): finite and at least 0 for every wavelength above 0.
+    /// The curve at a wavelength in nm: finite and at least 0 for every wavelength above 0.
     pub fn at(&self, lambda_nm: f64) -> f64 {
         match self {
             Self::Constant(value) => *value,
@@ -49,7 +62,7 @@ impl Spectrum {
         }
     }
 
-    /// A gaussian of a finite center and a width > 0, both nm.
+    /// A Gaussian with a finite center and a width > 0, both in nm.
     pub fn gaussian(center_nm: f64, width_nm: f64) -> Result<Self, SpectrumError> {
         if !center_nm.is_finite() {
             return Err(SpectrumError::Center { found: center_nm });
@@ -63,9 +76,9 @@ impl Spectrum {
         })
     }
 
-    /// The range in nm outside of which the curve is constant on either side, perhaps 0.
+    /// The range in nm outside of which the curve is constant on either side.
     ///
-    /// A gaussian and Planck's curve count as 0 where they are below 1e-30 of their peak. `None` if
+    /// A Gaussian and Planck's curve count as 0 where they are below 1e-30 of their peak. None if
     /// the curve is constant everywhere.
     pub fn support_nm(&self) -> Option<[f64; 2]> {
         let ends = |knots: &[f64]| Some([*knots.first()?, *knots.last()?]);
@@ -86,7 +99,7 @@ impl Spectrum {
         }
     }
 
-    /// The curve's greatest value over all wavelengths.
+    /// The greatest value of the curve over all wavelengths.
     pub fn peak(&self) -> f64 {
         match self {
             Self::Constant(value) => *value,
@@ -99,10 +112,10 @@ impl Spectrum {
         }
     }
 
-    /// About the width in nm of the narrowest thing that the curve does; `None` if it is constant.
+    /// Approximate width in nm of the curve's narrowest feature; None if it is constant.
     ///
-    /// The closest spacing of its points, a gaussian's standard deviation, a tenth of the wavelength
-    /// at which Planck's curve peaks, the steepest rise or fall of a color's curve by ½.
+    /// The smallest spacing of its points, a Gaussian's standard deviation, a tenth of the peak
+    /// wavelength of Planck's curve, the steepest rise or fall of a color's curve by ½.
     pub fn features_nm(&self) -> Option<f64> {
         match self {
             Self::Constant(_) => None,

@@ -1,9 +1,9 @@
-//! The CIE's tables of power as curves; D65 is the white of colors.
+//! The CIE's tables of power as curves. D65 is the white of colors.
 
 use super::{Beyond, Sampled};
 use crate::color::tables::{self, Uniform};
 
-/// Where every illuminant is 1, nm.
+/// Wavelength at which every illuminant is 1, nm.
 pub const UNIT_AT_NM: f64 = 560.0;
 
 /// D65, daylight of 6504 K: the white of sRGB.

@@ -1,18 +1,18 @@
-//! Why numbers do not make a curve, and the limits of those that do.
+//! Errors of numbers that do not make a curve, and the limits of those that do.
 
-/// Most rows that a file may have.
+/// Number of rows that a file may have.
 pub const MAX_ROWS: usize = 1_000_000;
 
 /// Greatest value of a point: sums and differences of a few stay finite.
 pub const MAX_VALUE: f64 = 1e300;
 
-/// Why numbers do not make a curve. Points are counted from 1.
+/// Reason why numbers do not make a curve. Points are counted from 1.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum SpectrumError {
-    /// An empty list or file.
+    /// The list or file is empty.
     #[error("there are no points: a curve needs at least one")]
     NoPoints,
-    /// More than [`MAX_ROWS`] points.
+    /// There are more than [`MAX_ROWS`] points.
     #[error("there are more than {} points", MAX_ROWS)]
     TooMany,
     /// A point's wavelength is not positive and finite.
@@ -51,13 +51,13 @@ pub enum SpectrumError {
     /// A spline's tension is out of range.
     #[error("the tension is {found}: it must be from 0 to 1")]
     Tension {
-        /// What was asked for.
+        /// The value given.
         found: f64,
     },
     /// A temperature is negative or not finite.
     #[error("the temperature is {found} K: it must be finite and at least 0")]
     Temperature {
-        /// What was asked for, K.
+        /// The value given, K.
         found: f64,
     },
     /// The wavelength at which a black body's curve is to be 1 is not positive and finite.
@@ -65,19 +65,19 @@ pub enum SpectrumError {
         "a black body's curve cannot be 1 at {found} nm: the wavelength must be greater than 0"
     )]
     UnitAt {
-        /// What was asked for, nm.
+        /// The value given, nm.
         found: f64,
     },
     /// A gaussian's center is not finite.
     #[error("the center is {found} nm: it must be finite")]
     Center {
-        /// What was asked for, nm.
+        /// The value given, nm.
         found: f64,
     },
     /// A gaussian's width is not positive and finite.
     #[error("the width is {found} nm: it must be finite and greater than 0")]
     Width {
-        /// What was asked for, nm.
+        /// The value given, nm.
         found: f64,
     },
     /// A color's component is negative, NaN or too large.
@@ -88,7 +88,7 @@ pub enum SpectrumError {
     Component {
         /// "red", "green" or "blue".
         channel: &'static str,
-        /// What was asked for.
+        /// The value given.
         found: f64,
     },
 }

@@ -1,54 +1,55 @@
-//! Curves too narrow for an axis, held so that none of their light is lost.
+//! Curves too narrow for an axis, represented so that none of their light is lost.
 //!
-//! A sum over an axis' wavelengths meets what is narrower than their spacing h by chance: a line
-//! between two of them is black, on one many times too bright. A [`Fine`] curve is held at
-//! [`PHASES`] nodes a spacing, δ = h/32 apart in u = ln λ, each with the mean of the curve under a
-//! hat,
+//! Whether a sum over an axis' wavelengths sees a feature narrower than their spacing h is chance:
+//! a line between two of them is black, a line on one of them many times too bright. A [`Fine`]
+//! curve has [`PHASES`] nodes per spacing, δ = h/32 apart in u = ln λ, each with the mean of the
+//! curve under a hat,
 //!
 //! Fᵢ = ∫ f(u) Λ((u − uᵢ)/δ) du/δ,  Λ(x) = max(0, 1 − |x|),
 //!
-//! integrated piece by piece between nodes and wherever the curve bends. So Σ δ Fᵢ φ(uᵢ) is ∫ f φ du
-//! for whatever φ is linear between nodes, however narrow f is: its integral and its center are
-//! kept. A [`FineSensor`] has the weights of its channels at the same nodes, and a shift by whole
-//! nodes is a shift of indices.
+//! integrated piece by piece between nodes and bends of the curve. So Σ δ Fᵢ φ(uᵢ) is ∫ f φ du for
+//! every φ that is linear between nodes, however narrow f is: its integral and its center are kept.
+//! A [`FineSensor`] has the weights of its channels at the same nodes, and a shift by whole nodes
+//! is a shift of indices.
 //!
-//! Error of a channel: that of straight lines between nodes, δ²/8 of the second derivative of the
-//! sensor's weight (times what else the light meets): 2·10⁻⁵ of the weight in the visible with 84
-//! wavelengths. The ends of a window and of bands, where the weight jumps, are sharp to δ.
+//! The error of a channel is that of straight lines between nodes, δ²/8 of the second derivative of
+//! the sensor's weight (times the other curves that the light meets): 2·10⁻⁵ of the weight in the
+//! visible with 84 wavelengths. The ends of a window and of bands, where the weight jumps, are
+//! sharp to δ.
 
 use super::band::gauss;
 use super::log_grid::{Baked, LogAxis, PHASES};
 use super::quadrature::{Quadrature, cuts_nm};
 use super::{Sensor, Spectrum};
 
-/// Most nodes of a curve, 16 MB of them.
+/// Number of nodes that a curve may have, 16 MB of them.
 const MOST_NODES: f64 = 2_097_152.0;
 
-/// Share of a curve's greatest mean at which it counts as ended.
+/// Share of a curve's greatest mean below which it counts as ended.
 const DARK: f64 = 1e-25;
 
-/// Curves whose finest feature is this many spacings wide need no second look.
+/// Width in spacings from which on a curve's finest feature needs no closer check.
 const WIDE: f64 = 2.0;
 
-/// How much the weight rises from one wavelength to the next where a grid is tried: the eye's
-/// green and blue do so on their flanks.
+/// Rise of the weight from one wavelength to the next in the check of a grid: the eye's green and
+/// blue rise so on their flanks.
 const SLOPE: f64 = 0.15;
 
-/// A curve by its means about nodes.
+/// A curve as means about nodes.
 #[derive(Debug, Clone)]
 pub struct Fine {
     axis: LogAxis,
     /// Number of the first node, counted from the axis' first wavelength.
     first: i64,
     means: Vec<f64>,
-    /// The curve before its first node and after its last, where it is constant.
+    /// The constant value of the curve before its first node and after its last.
     ends: [f64; 2],
 }
 
 impl Fine {
-    /// Holds a curve (of the wavelength in nm, finite and at least 0) as far as shifts of |ln D| up
-    /// to `reach` bring it to the axis. Beyond `support_nm` it is taken to be constant; it may bend
-    /// or be narrow at `cuts_nm`, and is smooth between.
+    /// Represents a curve (of the wavelength in nm, finite and at least 0) as far as shifts of |ln
+    /// D| up to `reach` bring it to the axis. Beyond `support_nm` it is taken to be constant; it
+    /// may bend or be narrow at `cuts_nm`, and is smooth between.
     ///
     /// None if there would be too many nodes.
     pub fn new(
@@ -89,11 +90,11 @@ impl Fine {
             }
         }
         let peak = means.iter().copied().fold(0.0, f64::max);
-        // A gaussian is cut off where next to nothing is left of it.
+        // A Gaussian is cut off where next to nothing is left of it.
         let ends = [first as f64 + 0.5, last as f64 - 0.5]
             .map(at)
             .map(|end| if end > DARK * peak { end } else { 0.0 });
-        // Only one half of their hats was met.
+        // Only half of their hats was integrated.
         means[0] += 0.5 * ends[0];
         means[(last - first) as usize] += 0.5 * ends[1];
         Some(Self {
@@ -104,7 +105,7 @@ impl Fine {
         })
     }
 
-    /// Holds a curve that bends, and is narrow, where `spectrum` does.
+    /// Represents a curve that bends, and is narrow, where `spectrum` does.
     pub fn of(
         axis: LogAxis,
         reach: f64,
@@ -116,14 +117,13 @@ impl Fine {
         Self::new(axis, reach, spectrum.support_nm()?, &cuts, curve)
     }
 
-    /// Whether a spectrum may do anything within so little of an axis' spacing that its sums could
-    /// miss it.
+    /// Whether a spectrum may have a feature so narrow that sums over the axis could miss it.
     pub fn is_worth_a_look(axis: LogAxis, spectrum: &Spectrum) -> bool {
         Self::finest(spectrum).is_some_and(|finest| finest < WIDE * axis.spacing())
     }
 
-    /// The width in ln λ of a bell, or of the closest points of a curve through points; None of what
-    /// is smooth by its nature.
+    /// The width in ln λ of a bell, or of the closest points of a curve through points; None for
+    /// curves that are smooth by nature.
     pub fn finest(spectrum: &Spectrum) -> Option<f64> {
         match spectrum {
             Spectrum::Gaussian {
@@ -139,9 +139,9 @@ impl Fine {
         }
     }
 
-    /// Whether sums over the axis of `baked`, the same curve, are as good: whether under a weight
-    /// that falls to nothing six spacings to either side, and rises by 0.15 a spacing, the
-    /// sum is that of the curve but for the share `noticed`, wherever the weight is put.
+    /// Whether sums over the axis of `baked`, the same curve, are as good. The test: under a weight
+    /// that falls to 0 six spacings to either side, and rises by 0.15 per spacing, the sum differs
+    /// from that of the curve by no more than the share `noticed`, wherever the weight is.
     pub fn is_served_by(&self, baked: &Baked, noticed: f64) -> bool {
         const REACH: i64 = 6;
         const STRIDE: usize = 8;
@@ -167,7 +167,7 @@ impl Fine {
                 [exact.sum(), sum.sum()]
             })
             .collect();
-        // Beside a line there is next to nothing: what counts is the light about it.
+        // Next to a line there is almost no light: what counts is the light about it.
         let about = 2 * reach as usize / STRIDE;
         sums.iter().enumerate().all(|(i, [exact, sum])| {
             let off = (sum - exact).abs();
@@ -181,7 +181,7 @@ impl Fine {
         &self.means
     }
 
-    /// Takes light away, from a position among the means on.
+    /// Subtracts light, starting at a position among the means.
     pub(super) fn take(&mut self, start: usize, light: &[f64]) {
         for (mean, light) in self.means[start..].iter_mut().zip(light) {
             *mean -= light;
@@ -203,7 +203,7 @@ impl Fine {
         }
     }
 
-    /// The mean about the node next to a wavelength.
+    /// The mean about the node nearest to a wavelength.
     pub fn near(&self, lambda_nm: f64) -> f64 {
         self.mean((self.axis.place(lambda_nm) * PHASES as f64).round() as i64)
     }
@@ -213,7 +213,7 @@ impl Fine {
         self.first + self.means.len() as i64 - 1
     }
 
-    /// The curve under a shift (ln D) at a place in nodes of the axis, by straight lines.
+    /// The curve under a shift (ln D) at a place in nodes of the axis, linear between nodes.
     #[inline]
     pub fn at(&self, ln_doppler: f64, node: f64) -> f64 {
         let place = node + ln_doppler / self.axis.spacing() * PHASES as f64;
@@ -223,7 +223,7 @@ impl Fine {
         self.mean(below) * (1.0 - share) + self.mean(below.saturating_add(1)) * share
     }
 
-    /// Whether nothing is left of it beyond its nodes.
+    /// Whether the curve is 0 beyond its nodes.
     pub fn ends_dark(&self) -> bool {
         self.ends == [0.0; 2]
     }
@@ -238,15 +238,15 @@ impl Fine {
 #[derive(Debug, Clone)]
 pub struct FineSensor {
     axis: LogAxis,
-    /// Number of the first node that counts.
+    /// Number of the first node with a weight.
     first: i64,
     weights: Vec<[f64; 3]>,
-    /// Sums of the weights before each.
+    /// Sums of the weights before each node.
     before: Vec<[f64; 3]>,
 }
 
 impl FineSensor {
-    /// Of the channels of a sensor, as integrals.
+    /// The weights of the channels of a sensor, as integrals.
     pub fn new(sensor: &Sensor, quadrature: &Quadrature) -> Self {
         let axis = sensor.axis();
         let [from, to] = quadrature.seen_nm().unwrap_or([f64::NAN; 2]);
@@ -259,7 +259,7 @@ impl FineSensor {
         };
         let weights: Vec<[f64; 3]> = (first..=last)
             .map(|i| {
-                // What lies about the node, within the window.
+                // The part of the window about the node.
                 let ends = [-0.5, 0.5].map(|half| {
                     let nm = axis.wavelength_nm((i as f64 + half) / PHASES as f64);
                     nm.clamp(from, to)
@@ -281,7 +281,7 @@ impl FineSensor {
         }
     }
 
-    /// The wavelengths between which the nodes lie.
+    /// The axis in whose spacing the nodes are counted.
     pub fn axis(&self) -> LogAxis {
         self.axis
     }
@@ -291,12 +291,12 @@ impl FineSensor {
         self.axis.wavelength_nm(node / PHASES as f64)
     }
 
-    /// Numbers of the nodes and what they count for.
+    /// The nodes, by number, with their weights.
     pub(super) fn nodes(&self) -> impl Iterator<Item = (i64, &[f64; 3])> {
         (self.first..).zip(&self.weights)
     }
 
-    /// What a place between nodes counts for; None where nothing is seen.
+    /// The weight of a place between nodes; None where nothing is seen.
     #[inline]
     pub(super) fn weights_at(&self, node: f64) -> Option<[f64; 3]> {
         let place = node - self.first as f64;

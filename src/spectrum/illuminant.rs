@@ -1,7 +1,7 @@
 //! The CIE's illuminants, by name.
 //!
-//! Relative power per nm, 1 at 560 nm. The tables go from 300 or 380 to 780 nm in steps of 5 nm, as
-//! published; between them straight lines, beyond them the end's value.
+//! Relative power per nm, 1 at 560 nm. The tables cover 300 or 380 to 780 nm in steps of 5 nm, as
+//! published; between entries the curve is linear, beyond them it is constant.
 
 use super::daylight::relative;
 use super::planck::C2;
@@ -19,9 +19,9 @@ pub const NAMES: &[&str] = &["A", "C", "D50", "D55", "D65", "D75", "E", "F2", "F
 /// S 014-2:2006): by ours the same curve is at 2855.5 K, known as 2856 K.
 pub const A_KELVIN: f64 = 2848.0 * C2 / 1.435e7;
 
-/// An illuminant of the CIE, or `None` if there is none of that name.
+/// An illuminant of the CIE; None if there is none of that name.
 ///
-/// A is Planck's curve and E is constant at every wavelength; the others are [`Sampled`].
+/// A is Planck's curve and E is constant at every wavelength; the others are [`Sampled`](super::Sampled).
 pub fn illuminant(name: &str) -> Option<Spectrum> {
     let table = match name {
         "A" => {

@@ -1,18 +1,17 @@
-//! Spectra as samples at equal distances: what the splines of Hsiung et al. 1990 (§3.2, §6) took
-//! the place of, held for comparison.
+//! Spectra as samples at equal distances, for comparison: the method that the splines of Hsiung et
+//! al. 1990 (§3.2, §6) replaced.
 //!
-//! Lines stand from 50 to 5000 nm, 991 of them at 5 nm. A Doppler shift reads a curve anew, by
-//! straight lines between its samples and nothing beyond the last of them on either side; what
-//! multiplies or adds does so line by line. So the error of a shift falls with the square of the
-//! spacing, s²/8 · max|d²S/dλ²| at the source, and what is narrower than s may be missed; cost
-//! grows as 1/s.
+//! There are lines from 50 to 5000 nm, 991 of them at 5 nm. A Doppler shift resamples a curve,
+//! linearly between samples and with 0 beyond them; products and sums go line by line. So the error
+//! of a shift falls with the square of the spacing, s²/8 · max|d²S/dλ²| at the source, and features
+//! narrower than s may be missed; cost grows as 1/s.
 
 use crate::color::cie::{EFFICACY, xyz_bar};
 
 /// First and last wavelength that may have a line, nm.
 pub const LINES_NM: [f64; 2] = [50.0, 5000.0];
 
-/// Where lines stand.
+/// The wavelengths of the lines.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LineAxis {
     spacing_nm: f64,
@@ -23,7 +22,7 @@ impl LineAxis {
     /// Lines from 50 to at most 5000 nm, `spacing_nm` (above 0, at most 50) apart.
     pub fn new(spacing_nm: f64) -> Self {
         let [first, last] = LINES_NM;
-        // A spacing that does not divide the range to the last bit ends it none the less.
+        // A spacing that does not divide the range to the last bit still ends it.
         let steps = (last - first) / spacing_nm * (1.0 + 1e-12);
         Self {
             spacing_nm,
@@ -41,7 +40,7 @@ impl LineAxis {
         self.spacing_nm
     }
 
-    /// The j-th line's wavelength, nm.
+    /// The wavelength of line j, nm.
     pub fn wavelength_nm(&self, j: usize) -> f64 {
         LINES_NM[0] + j as f64 * self.spacing_nm
     }
@@ -52,14 +51,14 @@ impl LineAxis {
         (0..self.count).filter(move |j| (from..=to).contains(&axis.wavelength_nm(*j)))
     }
 
-    /// For each line in a window its number and what light of 1 there adds to X, Y and Z
-    /// (cd·m⁻² per W·m⁻²·sr⁻¹·nm⁻¹): the rectangle rule with the CIE's functions.
+    /// For each line in a window its number and the contribution of a radiance of 1 there to X, Y
+    /// and Z (cd·m⁻² per W·m⁻²·sr⁻¹·nm⁻¹): the rectangle rule with the CIE's functions.
     pub fn cie1931(&self, window_nm: [f64; 2]) -> Vec<(usize, [f64; 3])> {
         self.weighed(window_nm, |nm| xyz_bar(nm).map(|bar| EFFICACY * bar))
     }
 
-    /// For each line in a window its number and what it adds to the long, middle and short third
-    /// of the window, which are equal in ln λ: its width (nm) to the one it lies in.
+    /// For each line in a window its number and its contribution to the long, middle and short
+    /// third of the window, which are equal in ln λ: its width (nm), to the third that contains it.
     pub fn bands(&self, window_nm: [f64; 2]) -> Vec<(usize, [f64; 3])> {
         let [from, to] = window_nm;
         self.weighed(window_nm, |nm| {
@@ -71,7 +70,7 @@ impl LineAxis {
     }
 
     /// Each line of a window with its weight times the part of its rectangle in the window, nm;
-    /// without those that weigh nothing.
+    /// lines without weight are left out.
     fn weighed(
         &self,
         [from, to]: [f64; 2],
@@ -105,19 +104,19 @@ impl Lines {
         &self.0
     }
 
-    /// Makes it nothing at all lines of an axis.
+    /// Sets all lines of an axis to 0.
     pub fn clear(&mut self, axis: LineAxis) {
         self.0.clear();
         self.0.resize(axis.count, 0.0);
     }
 
-    /// The value at a wavelength (nm), linear between lines; 0 where none are.
+    /// The value at a wavelength (nm), linear between lines; 0 where there are none.
     pub fn at(&self, axis: LineAxis, lambda_nm: f64) -> f64 {
         self.between((lambda_nm - LINES_NM[0]) / axis.spacing_nm)
     }
 
-    /// Writes the curve at D·λ for each line's λ, D being `doppler` (above 0): linear between
-    /// lines, 0 where none are.
+    /// Writes the curve at D·λ for each line's λ, where D is `doppler` (above 0): linear between
+    /// lines, 0 where there are none.
     pub fn resample(&self, axis: LineAxis, doppler: f64, out: &mut Self) {
         // λ = 50 + s·j is read at D·λ, which is line D·j + 50·(D − 1)/s.
         let start = LINES_NM[0] * (doppler - 1.0) / axis.spacing_nm;
@@ -146,8 +145,8 @@ impl Lines {
         }
     }
 
-    /// Adds `light` · `reflectance` · `factor`, the last two finite and at least 0. Light that is
-    /// too much for a number still leaves nothing where it is not reflected.
+    /// Adds `light` · `reflectance` · `factor`, the last two finite and at least 0. Infinite light
+    /// adds 0 where it is not reflected.
     pub fn add_product(&mut self, light: &Self, reflectance: &Self, factor: f64) {
         for ((sum, light), share) in self.0.iter_mut().zip(&light.0).zip(&reflectance.0) {
             *sum = (*sum + (light * factor).min(f64::MAX) * share).min(f64::MAX);
@@ -161,7 +160,7 @@ impl Lines {
         }
     }
 
-    /// The sums over weighed lines, of [`LineAxis::cie1931`] or [`LineAxis::bands`].
+    /// The sums over weighted lines of [`LineAxis::cie1931`] or [`LineAxis::bands`].
     pub fn weigh(&self, weights: &[(usize, [f64; 3])]) -> [f64; 3] {
         let mut sum = [0.0; 3];
         for (j, weights) in weights {

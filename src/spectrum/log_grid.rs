@@ -1,23 +1,23 @@
 //! The fast form of spectra: on an axis in ln λ a Doppler shift is a translation.
 //!
 //! A [`Baked`] curve is tabulated at 32 phases between two wavelengths of the sensor's axis, each
-//! phase a contiguous row. Read at all the sensor's wavelengths under a shift D, it is one
-//! integer offset and one linear weight between two rows: no search, no transcendental, and a
-//! convex combination, so a curve that is non-negative (or at most 1) stays so.
+//! phase a contiguous row. Reading it at all the sensor's wavelengths under a shift D takes one
+//! integer offset and one linear weight between two rows: no search, no transcendental function. It
+//! is a convex combination, so that a curve that is non-negative (or at most 1) stays so.
 //!
-//! Error: at most (h/32)²/8 · max|d²S/d(ln λ)²|, h the axis spacing: 2·10⁻⁴ of the peak for a
-//! Gaussian of σ = 5 nm at 589 nm and the default of 84 wavelengths; of curves that are smoothed
-//! first, of what they then are. Cost: two loads, a multiply
-//! and a fused multiply-add a wavelength. A 4-tap filter on one row, its relative, errs by 10⁻¹
-//! there.
+//! Error: at most (h/32)²/8 · max|d²S/d(ln λ)²|, with h the axis spacing: 2·10⁻⁴ of the peak for a
+//! Gaussian of σ = 5 nm at 589 nm and the default of 84 wavelengths; for curves that are smoothed
+//! first, that of the smoothed curve. Cost: two loads, a multiply and a fused multiply-add per
+//! wavelength. The alternative, a 4-tap filter on one row, errs by 10⁻¹ there.
 //!
-//! What bends within the spacing, as tables at every 5 nm do, would be seen by chance where a
-//! wavelength falls, so such curves are averaged first ([`Smoothing::OverSpacing`]): a D65 lamp under
-//! a shift is then ten times nearer to its exact colour, at no cost.
+//! Bends within the spacing, as tables at every 5 nm have them, would be seen by chance, depending
+//! on where a wavelength falls. So such curves are averaged first ([`Smoothing::OverSpacing`]): a
+//! D65 lamp under a shift is then ten times nearer to its exact color, at no cost.
 
 use super::Spectrum;
 
-/// The sensor's wavelengths: `count` bins of equal width in ln λ; a wavelength is its bin's centre.
+/// The sensor's wavelengths: `count` bins of equal width in ln λ, each with its center as
+/// wavelength.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LogAxis {
     window_nm: [f64; 2],
@@ -39,7 +39,7 @@ impl LogAxis {
         }
     }
 
-    /// What was asked for: where the first bin begins and the last ends, nm.
+    /// The window: beginning of the first bin and end of the last, nm.
     pub fn window_nm(&self) -> [f64; 2] {
         self.window_nm
     }
@@ -54,12 +54,12 @@ impl LogAxis {
         self.spacing
     }
 
-    /// The j-th wavelength, nm; `j` may be any real number.
+    /// The wavelength at place `j`, nm; `j` may be any real number.
     pub fn wavelength_nm(&self, j: f64) -> f64 {
         self.first_nm * (j * self.spacing).exp()
     }
 
-    /// Where a wavelength lies, in units of the spacing from the first.
+    /// The place of a wavelength, in units of the spacing from the first.
     pub fn place(&self, lambda_nm: f64) -> f64 {
         (lambda_nm / self.first_nm).ln() / self.spacing
     }
@@ -72,20 +72,21 @@ impl LogAxis {
     }
 }
 
-/// Rows between two neighbours of the axis.
+/// Rows between two neighbors of the axis.
 pub(super) const PHASES: usize = 32;
 
 /// Their distance in units of the axis' spacing.
 pub(super) const PHASE_SPACING: f64 = 1.0 / PHASES as f64;
 
-/// Most columns of a curve, 32 MB of it. A window so narrow that the curve is wider than as many
-/// of its steps cannot have it baked.
+/// Number of columns that a curve may have, 32 MB. In a very narrow window a wide curve would need
+/// more, and cannot be baked.
 const MOST_COLUMNS: f64 = 262_144.0;
 
 /// A curve tabulated for reading at an axis' wavelengths under any shift.
 #[derive(Debug, Clone)]
 pub struct Baked {
-    /// PHASES rows of `columns`, and [`LANES`] more that kernels may read; row p, column c is the curve at place first + c + p/PHASES.
+    /// PHASES rows of `columns` values, and [`LANES`] more that kernels may read; row p, column c
+    /// is the curve at place first + c + p/PHASES.
     rows: Vec<f32>,
     columns: usize,
     /// Place of column 0.
@@ -102,25 +103,25 @@ pub struct Shifted<'a> {
     weight: f32,
 }
 
-/// What is done to a curve before it is tabulated.
+/// Treatment of a curve before it is tabulated.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Smoothing {
-    /// Nothing: for curves without bends.
+    /// None, for curves without bends.
     None,
-    /// Averaged over the axis' spacing and corrected so that cubics in ln λ stay as they are: the
-    /// mean there times 13/12, less 1/24 of the means a spacing to either side. Held to what the
-    /// curve reaches.
+    /// Averaged over the axis' spacing and corrected so that cubics in ln λ stay unchanged: the
+    /// mean there times 13/12, less 1/24 of the means a spacing to either side. Clamped to the
+    /// range of the curve.
     OverSpacing,
-    /// Averaged over the axis' spacing: what each wavelength's bin holds.
+    /// Averaged over the axis' spacing: the mean in each wavelength's bin.
     Mean,
 }
 
 impl Smoothing {
-    /// Most that Σ |f̃ − f| over the wavelengths of the axis can be, under any shift, over V(f),
-    /// h V(f′) and h² V(f″): sums of the kernel's Peano kernels.
+    /// Bounds on Σ |f̃ − f| over the wavelengths of the axis, under any shift, relative to V(f), h
+    /// V(f′) and h² V(f″): sums of the kernel's Peano kernels.
     pub(super) const REACH: [f64; 3] = [0.542, 0.1046, 0.01547];
 
-    /// That of a curve: those through points bend at them.
+    /// The treatment for a curve: those through points bend at them.
     pub fn of(spectrum: &Spectrum) -> Self {
         if spectrum.knots_nm().is_empty() {
             Self::None
@@ -129,7 +130,8 @@ impl Smoothing {
         }
     }
 
-    /// Smooths values at [`PHASES`] places a spacing, which go on with the first and the last.
+    /// Smooths values at [`PHASES`] places per spacing; the first and the last continue beyond the
+    /// ends.
     fn apply(self, values: Vec<f64>) -> Vec<f64> {
         if self == Self::None {
             return values;
@@ -157,21 +159,22 @@ impl Smoothing {
     }
 }
 
-/// Values that kernels take at a time.
+/// Number of values that kernels process at a time.
 pub(super) const LANES: usize = 8;
 
-/// Variance of the mean over a spacing by trapezoids, in squares of it: 1/12, and what they add.
+/// Variance of the mean over a spacing by trapezoids, in squares of the spacing: 1/12, and what the
+/// trapezoids add.
 const SPREAD: f64 = 1.0 / 12.0 + 1.0 / (6.0 * (PHASES * PHASES) as f64);
 
-/// Columns beside a curve's support that smoothing may touch.
+/// Columns beside a curve's support that smoothing may change.
 const TOUCHED: i64 = 2;
 
 impl Baked {
     /// Tabulates `curve` (of the wavelength in nm, finite and ≥ 0) as far as shifts of |ln D| up to
-    /// `reach` can bring it to the axis: what lies beyond does not count for its peak. Beyond `support_nm` the curve
-    /// is taken to be constant; None says that it is constant everywhere.
+    /// `reach` can bring it to the axis; the rest does not count for its peak. Beyond `support_nm`
+    /// the curve is taken to be constant; None means that it is constant everywhere.
     ///
-    /// None if the table would be too large, where the axis is very fine.
+    /// None if the table would be too large because the axis is very fine.
     pub fn new(
         axis: LogAxis,
         reach: f64,
@@ -189,7 +192,7 @@ impl Baked {
         if high - low > MOST_COLUMNS {
             return None;
         }
-        // A window wholly beyond an end reads nothing but that end.
+        // A window wholly beyond an end reads only that end.
         let first = low.floor() as i64 - axis.count as i64 - 1 - TOUCHED;
         let columns = (high.ceil() as i64 + 2 + TOUCHED - first) as usize + axis.count;
         let fine = |i: usize| {
@@ -202,7 +205,7 @@ impl Baked {
         let mut rows = vec![0.0; columns * PHASES + LANES];
         for (i, value) in values.iter().enumerate() {
             let shape = (value * scale) as f32;
-            // Subnormal numbers would cost the kernel four-fold.
+            // Subnormal numbers would slow the kernel four-fold.
             rows[i % PHASES * columns + i / PHASES] = if shape < 1e-30 { 0.0 } else { shape };
         }
         Some(Self {
@@ -226,7 +229,7 @@ impl Baked {
         self.peak * f64::from(self.rows[i % PHASES * self.columns + i / PHASES])
     }
 
-    /// Factor of [`Shifted`] values: the curve's largest value.
+    /// Factor of [`Shifted`] values: the greatest value of the curve.
     pub fn peak(&self) -> f64 {
         self.peak
     }
@@ -251,14 +254,14 @@ impl Baked {
 }
 
 impl<'a> Shifted<'a> {
-    /// The two rows, as long as the axis and on to the next multiple of [`LANES`] with numbers that
-    /// count for nothing, and their weights.
+    /// The two rows, as long as the axis and on to the next multiple of [`LANES`] with numbers of
+    /// no effect, and their weights.
     #[inline(always)]
     pub(super) fn rows(&self) -> ([&'a [f32]; 2], [f32; 2]) {
         ([self.a, self.b], [1.0 - self.weight, self.weight])
     }
 
-    /// Writes the values, over the curve's peak, to `out` (as many as the axis has).
+    /// Writes the values, relative to the curve's peak, to `out` (of the axis' length).
     #[inline(always)]
     pub fn write(&self, out: &mut [f32]) {
         let keep = 1.0 - self.weight;

@@ -3,7 +3,7 @@
 use super::Spectrum;
 use crate::color::cie::{EFFICACY, RANGE_NM, xyz_bar};
 
-/// Nodes (half-widths from the middle) and weights of Gauss and Legendre's rule of three points:
+/// Nodes (half-widths from the middle) and weights of the Gauss-Legendre rule of three points:
 /// exact for a cubic curve times the linear ȳ between two nm.
 const GAUSS: [(f64, f64); 3] = [
     (-0.774_596_669_241_483_4, 5.0 / 18.0),
@@ -13,8 +13,9 @@ const GAUSS: [(f64, f64); 3] = [
 
 /// 683 ∫ ȳ S dλ: the luminance in cd/m² of a curve read as radiance.
 ///
-/// Exact but for rounding where the curve is piecewise cubic or linear; for gaussians of any width,
-/// and for colors, to 1e-7. For a black body below 10 K, whose light doubles within a nm, less.
+/// Exact except for rounding if the curve is piecewise cubic or linear; to 1e-7 for Gaussians of
+/// any width and for colors. Less exact for a black body below 10 K, whose light doubles within a
+/// nm.
 pub fn luminous_integral(spectrum: &Spectrum) -> f64 {
     let (longest_nm, [first_nm, last_nm]) = smooth_pieces(spectrum);
     let mut ends: Vec<f64> = (360..=830)
@@ -31,7 +32,8 @@ pub fn luminous_integral(spectrum: &Spectrum) -> f64 {
     EFFICACY * pieces.sum::<f64>()
 }
 
-/// The longest step that resolves a curve between its knots, and the part of the table to add up.
+/// The longest step that resolves a curve between its knots, and the part of the table to
+/// integrate.
 fn smooth_pieces(spectrum: &Spectrum) -> (f64, [f64; 2]) {
     let steps_nm = spectrum.features_nm().map_or(1.0, |width| 0.5 * width);
     match (spectrum, spectrum.support_nm()) {

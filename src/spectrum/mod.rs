@@ -1,11 +1,10 @@
-//! Curves over wavelength: what a light emits, a surface reflects, a sensor adds up.
+//! Curves over wavelength: emission of lamps, reflectance of surfaces, sensitivity of sensors.
 //!
+//! In: numbers from authors, tables and files. Out: curves ([`Spectrum`]), and three forms of them
+//! for rendering: baked on a grid in ln λ ([`Baked`]), fine ([`Fine`]), and lines ([`Lines`]).
 //! Wavelengths are in nm, temperatures in K, spectral radiance in W·m⁻²·sr⁻¹·nm⁻¹, everything f64.
 //! A curve is defined, finite and never negative at every wavelength above 0, since a Doppler shift
-//! may bring any of them into view. The curves that the author wrote stand here as they were
-//! written; how they are held for rendering is another matter.
-//!
-//! Of ours, only [`color`](crate::color) is imported.
+//! may bring any of them into view. Only [`color`](crate::color) is imported.
 
 mod band;
 mod bound;

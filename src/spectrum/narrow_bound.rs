@@ -1,21 +1,22 @@
-//! What sums of narrow curves' light can be off, over their area ∫ f du.
+//! Bound on the error of sums of narrow curves' light, relative to their area ∫ f du.
 //!
-//! A narrow curve f is integrated ([`Fine`](super::Fine)); what errs is the rest. Of the product
-//! w g f of a channel's weight w per unit of u = ln λ, a smooth curve g and f, the sum is
-//! ∫ ŵg f du, so the error is at most the area times max |ŵg − w g|: g between wavelengths is a
-//! cubic (Catmull–Rom; its kernels are 1.13, h/4 and h²/10), and w and g between rows of tables
-//! over ln D are lines or cubics.
+//! A narrow curve f is integrated ([`Fine`](super::Fine)); the error is in the rest. For the
+//! product w g f of a channel's weight w per unit of u = ln λ, a smooth curve g and f, the sum is ∫
+//! ŵg f du, so the error is at most the area times max |ŵg − w g|. Between wavelengths, g is a
+//! cubic (Catmull-Rom; its kernels are 1.13, h/4 and h²/10); between rows of tables over ln D, w
+//! and g are lines or cubics.
 
-/// Rounding of an f32 operation.
+/// Rounding error of an f32 operation.
 pub(super) const F32: f64 = 6e-8;
 
-/// A channel's weight per unit of ln λ, over the channel of an equal-energy white of value 1.
+/// A channel's weight per unit of ln λ, relative to the channel of an equal-energy white of value
+/// 1.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct NarrowKernel {
     most: f64,
-    /// Largest rise or fall over a step of tables.
+    /// Largest change over a step of tables.
     rise: f64,
-    /// How far it is at most from the straight line over a step.
+    /// Largest distance from the straight line over a step.
     sag: f64,
     /// The axis' spacing, and the step of tables.
     spacing: f64,
@@ -23,7 +24,7 @@ pub(super) struct NarrowKernel {
 }
 
 impl NarrowKernel {
-    /// Of what the channel makes of each of equal steps in ln λ, `step` wide; nothing beyond.
+    /// The kernel from the parts of a channel in equal steps of ln λ, each `step` wide; 0 beyond.
     pub(super) fn of(parts: &[f64], step: f64, spacing: f64, table_step: f64) -> Self {
         let half = (table_step / step / 2.0).ceil().max(1.0) as usize;
         let at = |i: usize| {
@@ -44,8 +45,8 @@ impl NarrowKernel {
         own
     }
 
-    /// What a smooth curve adds: of peak 1, given the variations of it and its derivatives, its
-    /// steepest rise, and how far it is from what is baked of it.
+    /// The error that a smooth curve of peak 1 adds, from the variations of it and its derivatives,
+    /// its steepest slope, and the error of its baked form.
     pub(super) fn error(&self, variation: [f64; 3], steepest: f64, baked: f64) -> f64 {
         let [jump, bend, twist] = variation;
         let cubic = (1.13 * jump)
@@ -60,9 +61,9 @@ impl NarrowKernel {
         self.most
     }
 
-    /// Without any.
+    /// The error without any smooth curve.
     pub(super) fn own(&self) -> f64 {
-        // A cubic swings to either side of a jump by an eighth of it.
+        // A cubic overshoots a jump by an eighth of it on either side.
         2.5 * self.sag + F32 * 16.0 * self.most
     }
 }

@@ -1,8 +1,8 @@
 //! Thermal radiation: Planck's law, its peak and its total.
 //!
 //! Wavelengths in nm, temperatures in K, spectral radiance in W·m⁻²·sr⁻¹·nm⁻¹. At T = 0 everything
-//! is 0; so it is for a temperature or wavelength that is negative or NaN, which [`PlanckShape::new`]
-//! rejects by name.
+//! is 0, and so it is for a temperature or wavelength that is negative or NaN, which
+//! [`PlanckShape::new`] rejects by name.
 //!
 //! Source: Planck 1901, Ann. Phys. 309, 553, §10 (there as energy density), with the exact
 //! constants of the SI brochure, 9th edition (2019).
@@ -34,9 +34,10 @@ const DIRECT_K: std::ops::Range<f64> = 1e-200..1e200;
 
 /// Planck's spectral radiance B(λ, T) = c₁λ⁻⁵ e⁻ˣ/(1 − e⁻ˣ), x = c₂/(λT); W·m⁻²·sr⁻¹·nm⁻¹.
 ///
-/// Relative error at most 4ε·max(x, 4) while 1e-50 ≤ λ < 1e50 nm: rounding x by 2ε costs 2ε(x + 1),
-/// the other factors 5ε; together that is less, and nothing grows with |ln B|. Outside, from
-/// [`ln_radiance`], the error is about ε·|ln B| + 2ε·x. Falls to 0 below e⁻⁷⁴⁵, stays at the greatest f64 where it would overflow.
+/// The relative error is at most 4ε·max(x, 4) while 1e-50 ≤ λ < 1e50 nm: rounding x by 2ε costs
+/// 2ε(x + 1), the other factors 5ε; together that is less, and nothing grows with |ln B|. Outside,
+/// by [`ln_radiance`], the error is about ε·|ln B| + 2ε·x. The value is 0 below e⁻⁷⁴⁵, and the
+/// greatest f64 where it would overflow.
 pub fn radiance(lambda_nm: f64, temperature_k: f64) -> f64 {
     if is_dark(lambda_nm, temperature_k) {
         return 0.0;
@@ -52,17 +53,17 @@ pub fn radiance(lambda_nm: f64, temperature_k: f64) -> f64 {
     value.min(f64::MAX)
 }
 
-/// ln B(λ, T), B in W·m⁻²·sr⁻¹·nm⁻¹: for ranges that B itself leaves.
+/// ln B(λ, T), with B in W·m⁻²·sr⁻¹·nm⁻¹, for values beyond the range of B itself.
 ///
-/// ln c₁ − 5 ln λ − x − ln(1 − e⁻ˣ), for any positive f64; −∞ at T = 0. Absolute error about
-/// ε·(5 |ln λ| + 2x).
+/// ln c₁ − 5 ln λ − x − ln(1 − e⁻ˣ), for any positive f64; −∞ at T = 0. Absolute error about ε·(5
+/// |ln λ| + 2x).
 pub fn ln_radiance(lambda_nm: f64, temperature_k: f64) -> f64 {
     if is_dark(lambda_nm, temperature_k) {
         return f64::NEG_INFINITY;
     }
     let (ln_lambda, ln_c2) = (lambda_nm.ln(), C2.ln());
     let x = C2 / lambda_nm / temperature_k;
-    // 1 − e⁻ˣ = x to rounding here, and ln x does not mind that x itself may underflow.
+    // 1 − e⁻ˣ = x to rounding here; ln x is computed so that x itself may underflow.
     let ln_quantum = if x < 1e-17 {
         ln_c2 - ln_lambda - temperature_k.ln()
     } else {
@@ -71,7 +72,7 @@ pub fn ln_radiance(lambda_nm: f64, temperature_k: f64) -> f64 {
     C1.ln() - 5.0 * ln_lambda - x - ln_quantum
 }
 
-/// Whether the law gives nothing here, or is not defined.
+/// Whether the law gives 0 here, or is not defined.
 fn is_dark(lambda_nm: f64, temperature_k: f64) -> bool {
     let positive = |value: f64| value > 0.0 && value.is_finite();
     !positive(lambda_nm) || !positive(temperature_k)
@@ -84,7 +85,7 @@ pub fn peak_nm(temperature_k: f64) -> f64 {
 
 /// The greatest B over all wavelengths, W·m⁻²·sr⁻¹·nm⁻¹: c₁ (T/c₂)⁵ x⁵/(eˣ − 1) at the peak's x.
 ///
-/// Grows as T⁵; stays at the greatest f64 where it would overflow (T above 1e64).
+/// Grows as T⁵; the greatest f64 where it would overflow (T above 1e64).
 pub fn peak_radiance(temperature_k: f64) -> f64 {
     (C1 * (temperature_k / C2).powi(5) * SHAPE_PEAK).clamp(0.0, f64::MAX)
 }
@@ -100,7 +101,7 @@ pub fn total(temperature_k: f64) -> f64 {
 pub struct PlanckShape {
     /// Temperature, K; 0 makes the curve 0 everywhere, `unit_at_nm` included.
     pub temperature_k: f64,
-    /// Where the curve is 1, nm.
+    /// Wavelength at which the curve is 1, nm.
     pub unit_at_nm: f64,
 }
 
@@ -121,8 +122,8 @@ impl PlanckShape {
         })
     }
 
-    /// B(λ, T)/B(unit_at, T), finite: it stays at the greatest f64 where it would overflow, as far
-    /// to the long side of a very cold body's `unit_at_nm`.
+    /// B(λ, T)/B(unit_at, T), finite: the greatest f64 where it would overflow, as on the long side
+    /// of a very cold body's `unit_at_nm`.
     pub fn at(&self, lambda_nm: f64) -> f64 {
         let here = radiance(lambda_nm, self.temperature_k);
         let unit = radiance(self.unit_at_nm, self.temperature_k);
@@ -144,13 +145,14 @@ impl PlanckShape {
         self.at(peak_nm(self.temperature_k))
     }
 
-    /// Where the curve exceeds 1e-30 of its peak, nm; `None` at T = 0, where it is 0 everywhere.
+    /// The range in which the curve exceeds 1e-30 of its peak, nm; None at T = 0, where it is 0
+    /// everywhere.
     pub fn support_nm(&self) -> Option<[f64; 2]> {
         let edge = |x: f64| (C2 / x / self.temperature_k).min(f64::MAX);
         (self.temperature_k > 0.0).then(|| X_SUPPORT.map(edge))
     }
 
-    /// A tenth of the wavelength of the peak, nm, within which the curve changes little near it.
+    /// A tenth of the peak wavelength, nm, within which the curve changes little near it.
     pub fn feature_nm(&self) -> Option<f64> {
         (self.temperature_k > 0.0).then(|| 0.1 * peak_nm(self.temperature_k))
     }

@@ -1,18 +1,18 @@
-//! Points that carry a curve, and what it does beyond them.
+//! Checks of the points of a curve, and its course beyond them.
 
 use super::error::{MAX_ROWS, MAX_VALUE, SpectrumError};
 
-/// What a curve does outside of its first and last point.
+/// The course of a curve outside its first and last point.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Beyond {
-    /// Goes on with the end's value.
+    /// Constant, with the value at the end.
     #[default]
     Hold,
-    /// Is 0.
+    /// Zero.
     Zero,
 }
 
-/// That points can carry a curve: some, not too many, ascending, each in range.
+/// Checks that points can define a curve: at least one, not too many, ascending, each in range.
 pub(super) fn check_points(points: &[(f64, f64)]) -> Result<(), SpectrumError> {
     if points.is_empty() {
         return Err(SpectrumError::NoPoints);
@@ -25,7 +25,7 @@ pub(super) fn check_points(points: &[(f64, f64)]) -> Result<(), SpectrumError> {
     Ok(())
 }
 
-/// That a point may follow `previous` as number `index`, from 0.
+/// Checks that a point may follow `previous` as number `index`, from 0.
 fn check_next(
     index: usize,
     previous: Option<(f64, f64)>,

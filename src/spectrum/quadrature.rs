@@ -1,30 +1,33 @@
-//! Three channels of light of any spectrum by adaptive quadrature: what every other way of adding
-//! it up is measured against.
+//! Three channels of light of any spectrum by adaptive quadrature: the reference for every other
+//! method.
 //!
 //! The integral over the window is cut wherever the integrand is not smooth: at whole nm, between
-//! which the weights of [`cie::xyz_bar`](super::cie::xyz_bar) are linear, at the ends of bands, and
+//! which the weights of [`cie::xyz_bar`](crate::color::cie::xyz_bar) are linear, at the ends of bands, and
 //! where the caller knows the curve to bend or to be narrow ([`cuts_nm`]). Each piece is summed by
 //! Gauss's rule of three points and Kronrod's extension of it to seven (Kronrod 1965, Nodes and
 //! Weights of Quadrature Formulas), exact for polynomials of degree 5 and 11. Their difference is
-//! taken for the error of the better one, and pieces are halved until it is small enough. So a
-//! product of splines and polylines comes out exact but for rounding.
+//! taken as the error of the better one, and pieces are halved until it is small enough. So a
+//! product of splines and polylines is exact except for rounding.
 
 use super::Spectrum;
 use crate::color::cie::{EFFICACY, RANGE_NM, xyz_bar};
 
-/// Largest error of a channel, over the greatest of the three, unless 16384 halvings are not enough.
+/// Largest error of a channel, relative to the greatest of the three, unless 16384 halvings are not
+/// enough.
 pub const TOLERANCE: f64 = 1e-10;
 
-/// Most halvings in one integral: 20 find a bend at an unknown place to [`TOLERANCE`].
+/// Number of halvings in one integral: 20 find a bend at an unknown place to [`TOLERANCE`].
 const MOST_HALVINGS: u32 = 1 << 14;
 
-/// Longest piece of a band, in ln λ: none that black bodies or colors do is narrower than a third.
+/// Longest piece of a band, in ln λ: no feature of black bodies or colors is narrower than a third
+/// of it.
 const PIECE: f64 = 0.05;
 
-/// What larger values count as, so that sums stay finite: as in [`Sensor`](super::Sensor).
+/// Value to which larger ones are clamped, so that sums stay finite: as in
+/// [`Sensor`](super::Sensor).
 const LARGEST: f64 = 1e280;
 
-/// Nodes of the seven points from the middle outwards, half-widths, with their weights in
+/// Nodes of the seven points from the middle outward, in half-widths, with their weights in
 /// Kronrod's and in Gauss's rule.
 const NODES: [(f64, f64, f64); 4] = [
     (0.0, 0.450_916_538_658_474_14, 8.0 / 9.0),
@@ -36,8 +39,8 @@ const NODES: [(f64, f64, f64); 4] = [
 /// Three channels as integrals over a window.
 #[derive(Debug, Clone)]
 pub struct Quadrature {
-    /// Where the weights are not smooth, and both ends, ascending, nm; fewer than two where nothing
-    /// is seen.
+    /// Wavelengths at which the weights are not smooth, and both ends, ascending, nm; fewer than
+    /// two if nothing is seen.
     cuts_nm: Vec<f64>,
     weights: Weights,
 }
@@ -102,9 +105,9 @@ impl Quadrature {
     }
 
     /// The channels of a curve (of the wavelength in nm, at least 0) within [`TOLERANCE`] of the
-    /// greatest, given where it is not smooth: `cuts_nm`, in any order, anywhere.
+    /// greatest. `cuts_nm` are the wavelengths at which the curve is not smooth, in any order.
     ///
-    /// XYZ of all that is visible takes 7 evaluations a nm, and as many for each cut.
+    /// XYZ of the whole visible range takes 7 evaluations per nm, and as many for each cut.
     pub fn channels(&self, cuts_nm: &mut Vec<f64>, curve: impl Fn(f64) -> f64) -> [f64; 3] {
         match self.seen_nm() {
             Some(seen_nm) => self.channels_within(seen_nm, cuts_nm, curve),
@@ -112,7 +115,7 @@ impl Quadrature {
         }
     }
 
-    /// The same of what lies in a range (nm, ascending) of what is seen.
+    /// The channels of the part of a curve in a range (nm, ascending).
     pub fn channels_within(
         &self,
         [from, to]: [f64; 2],
@@ -139,7 +142,7 @@ impl Quadrature {
         self.refined(pieces, allowed, &curve)
     }
 
-    /// The sum over pieces, those halved whose error is more than their part of what is allowed.
+    /// The sum over pieces. A piece whose error exceeds its share of `allowed` is halved.
     fn refined(&self, pieces: Vec<Piece>, allowed: f64, curve: &impl Fn(f64) -> f64) -> [f64; 3] {
         let part = allowed / pieces.len() as f64;
         let mut sum = [0.0; 3];
@@ -168,7 +171,7 @@ impl Quadrature {
         let (mut kronrod, mut gauss) = ([0.0; 3], [0.0; 3]);
         let mut add = |nm: f64, better: f64, worse: f64| {
             let value = curve(nm);
-            // What is no number counts as nothing.
+            // NaN counts as 0.
             let value = if value > 0.0 { value.min(LARGEST) } else { 0.0 };
             for (c, weight) in (0..).zip(self.weights(nm, middle)) {
                 kronrod[c] += better * weight * value;
@@ -189,7 +192,7 @@ impl Quadrature {
         }
     }
 
-    /// What a wavelength counts for in a piece around `middle`.
+    /// The weight of a wavelength, in a piece around `middle`.
     fn weights(&self, nm: f64, middle: f64) -> [f64; 3] {
         match self.weights {
             Weights::Cie => xyz_bar(nm).map(|bar| EFFICACY * bar),
@@ -204,7 +207,7 @@ impl Quadrature {
 struct Piece {
     ends_nm: [f64; 2],
     sums: [f64; 3],
-    /// How far the two rules differ, in the channel where it is most.
+    /// Difference between the two rules, in the channel where it is largest.
     error: f64,
 }
 
@@ -216,12 +219,12 @@ impl Piece {
     }
 }
 
-/// Standard deviations from a gaussian's center at which it is cut: from one to the next the rules
+/// Standard deviations from a Gaussian's center at which it is cut: from one to the next the rules
 /// above are good to 1e-12 of it.
 const GAUSSIAN_CUTS: std::ops::RangeInclusive<i32> = -12..=12;
 
 /// Adds the wavelengths (nm) at which a curve that is read at `shift`·λ is not smooth, or between
-/// which it might be overlooked: its points, where it becomes constant, a gaussian's deviations.
+/// which it might be missed: its points, the ends of its support, a Gaussian's deviations.
 pub fn cuts_nm(spectrum: &Spectrum, shift: f64, cuts_nm: &mut Vec<f64>) {
     match spectrum {
         Spectrum::Constant(_) | Spectrum::Planck(_) => {}

@@ -1,32 +1,32 @@
-//! How unsmooth a curve is: what bounds on sums of it are made of.
+//! Roughness of a curve: the quantities from which bounds on sums are computed.
 
 use super::Spectrum;
 use super::log_grid::Smoothing;
 use super::quadrature::cuts_nm;
 
-/// Most samples of a curve.
+/// Number of samples of a curve at most.
 const MOST_SAMPLES: f64 = 1e6;
 
 /// Largest step, in ln λ, in which a curve is sampled: a tenth of the narrowest band of a color.
 pub(super) const STEP: f64 = 2e-3;
 
-/// How unsmooth a curve is over ln λ, relative to its peak.
+/// Roughness of a curve over ln λ, relative to its peak.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Roughness {
     /// Largest |f|, |f′| and |f″|.
     pub(super) largest: [f64; 3],
     /// Total variations of f, f′ and f″.
     pub(super) variation: [f64; 3],
-    /// What is done to it before it is tabulated.
+    /// Treatment of the curve before it is tabulated.
     pub(super) smoothing: Smoothing,
     /// ∫ f du.
     pub(super) area: f64,
-    /// Whether it is held as [`Fine`](super::Fine) and not baked.
+    /// Whether the curve is represented as [`Fine`](super::Fine) and not baked.
     pub(super) narrow: bool,
 }
 
 impl Roughness {
-    /// Of what is the same everywhere.
+    /// The roughness of a constant.
     pub const CONSTANT: Self = Self {
         largest: [1.0, 0.0, 0.0],
         variation: [0.0; 3],
@@ -35,15 +35,15 @@ impl Roughness {
         narrow: false,
     };
 
-    /// Of a curve (of the wavelength in nm) that bends where `spectrum` does, over a range of
-    /// wavelengths (nm, ascending), in steps of at most `step` in ln λ.
+    /// The roughness of a curve (of the wavelength in nm) that bends where `spectrum` does, over a
+    /// range of wavelengths (nm, ascending), in steps of at most `step` in ln λ.
     pub fn of(
         curve: impl Fn(f64) -> f64,
         spectrum: &Spectrum,
         range_nm: [f64; 2],
         step: f64,
     ) -> Self {
-        // However fast a scene is: beyond, f64 has no wavelengths.
+        // Beyond these f64 has no wavelengths, however fast a scene is.
         let [from, to] = range_nm.map(|nm| nm.clamp(1e-300, 1e300));
         let mut cuts = vec![from, to];
         cuts_nm(spectrum, 1.0, &mut cuts);
@@ -72,7 +72,8 @@ impl Roughness {
         }
     }
 
-    /// As of a curve that is held finely, since sums over the axis would not do for it.
+    /// The roughness of a curve that is represented finely because sums over the axis would miss
+    /// it.
     #[must_use]
     pub fn narrow(self) -> Self {
         Self {
@@ -81,7 +82,7 @@ impl Roughness {
         }
     }
 
-    /// Of samples (ln λ, value), ascending.
+    /// The roughness of samples (ln λ, value), ascending.
     fn sampled(samples: &[(f64, f64)]) -> Self {
         let peak = samples.iter().map(|s| s.1).fold(0.0, f64::max);
         if peak <= 0.0 {
@@ -103,12 +104,12 @@ impl Roughness {
         own
     }
 
-    /// Of the product of two curves, under whatever shifts: by Leibniz's rule.
+    /// The roughness of the product of two curves, under any shifts, by Leibniz's rule.
     #[must_use]
     pub fn times(&self, other: &Self) -> Self {
         let ([_, la, lla], [_, lb, llb]) = (self.largest, other.largest);
         let ([va, vva, vvva], [vb, vvb, vvvb]) = (self.variation, other.variation);
-        // ∫ |a⁽ⁱ⁾ b⁽ʲ⁾|, either of them taken at its largest.
+        // ∫ |a⁽ⁱ⁾ b⁽ʲ⁾|, with either of them at its largest.
         let mixed = |va: f64, lb: f64, vb: f64, la: f64| nothing_of(va, lb).min(nothing_of(vb, la));
         Self {
             largest: [1.0, la + lb, lla + 2.0 * nothing_of(la, lb) + llb],
@@ -124,12 +125,12 @@ impl Roughness {
     }
 }
 
-/// A product in which nothing of infinitely much is nothing.
+/// A product in which 0 times infinity is 0.
 pub(super) fn nothing_of(a: f64, b: f64) -> f64 {
     if a == 0.0 || b == 0.0 { 0.0 } else { a * b }
 }
 
-/// Differences of neighbours over their distance, midway.
+/// Difference quotients of neighbors, midway between them.
 fn quotients(samples: &[(f64, f64)]) -> Vec<(f64, f64)> {
     samples
         .windows(2)

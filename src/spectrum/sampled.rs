@@ -13,7 +13,7 @@ pub struct Sampled {
 
 impl Sampled {
     /// The polyline through (nm, value) `points`, strictly ascending in nm, values from 0 to
-    /// [`MAX_VALUE`].
+    /// [`MAX_VALUE`](super::MAX_VALUE).
     pub fn new(points: &[(f64, f64)], beyond: Beyond) -> Result<Self, SpectrumError> {
         check_points(points)?;
         let (nm, values) = points.iter().copied().unzip();

@@ -1,48 +1,47 @@
-//! What narrow curves make of smooth ones under a shift of their own: by a few points where the
-//! narrow one is a line or some, else by a table of what each wavelength then counts for.
+//! Products of narrow and smooth curves under a shift between them: by a few points if the narrow
+//! curve is one line or some, else by a table of each wavelength's weight.
 
 use super::cubic::catmull_rom;
 use super::fine::{Fine, FineSensor};
 use super::log_grid::{LANES, LogAxis, PHASES};
 
-/// Nodes between two rows of [`Responses`]: they are an eighth of a spacing apart. A channel is
-/// a smooth function of the shift; lines between rows leave (h/8)²/8 of its second derivative,
-/// 1e-4 of the eye's weights.
+/// Nodes between two rows of [`Responses`]: they are an eighth of a spacing apart. A channel is a
+/// smooth function of the shift; lines between rows leave (h/8)²/8 of its second derivative, 1e-4
+/// of the eye's weights.
 const ROW_NODES: i64 = 4;
 
-/// Most numbers in [`Responses`], 32 MB.
+/// Number of numbers in [`Responses`] at most, 32 MB.
 const MOST_NUMBERS: f64 = 8_388_608.0;
 
-/// Most points of [`Sparse`]: with more a table is as quick.
+/// Number of points in [`Sparse`] at most; beyond it a table is as fast.
 const MOST_POINTS: usize = 24;
 
-/// Nodes that two points stand for, one spacing of the axis: Gauss's rule leaves 1/4320 of the
-/// fourth derivative of what the curve meets, where the curve fills them, and less where it is
-/// narrower.
+/// Nodes that two points represent, one spacing of the axis: Gauss's rule leaves 1/4320 of the
+/// fourth derivative of the other curve, if the curve fills the nodes, and less if it is narrower.
 const CHUNK: usize = PHASES;
 
-/// Share of a curve's light that a chunk may hold and be left out.
+/// Share of a curve's light below which a chunk is left out.
 const FAINT: f64 = 1e-9;
 
-/// Share of a curve's light that may be left beside its lines and be nothing: what an opened bell
-/// keeps in its tails.
+/// Share of a curve's light beside its lines below which the rest counts as nothing: an opened bell
+/// keeps as much in its tails.
 const REST: f64 = 1e-6;
 
-/// Part of what stands in a chunk above the curve beside it, from which on that is a line.
+/// Share of a chunk that has to stand out from the curve beside it to count as a line.
 const STANDS_OUT: f64 = 0.05;
 
 /// A curve as a few points: its integral over anything smooth is a sum over them.
 #[derive(Debug, Clone)]
 pub struct Sparse {
-    /// Where, in nodes of the axis from its first wavelength, and how much, in means of nodes.
+    /// Places, in nodes of the axis from its first wavelength, and amounts, in means of nodes.
     points: Vec<[f64; 2]>,
 }
 
 impl Sparse {
-    /// The lines of a curve, what stands out of it within a spacing, and what is left without them:
-    /// None where there is nothing of either, or where the lines are more than some two dozen
-    /// points. Each spacing's part becomes the two points that have its moments up to the third
-    /// (Gauss's rule for the line as weight).
+    /// Splits a curve into its lines, features within a spacing that stand out, and the rest.
+    /// Either is None if it is empty; the lines also if they are more than some two dozen points.
+    /// Each spacing's part becomes the two points that have its moments up to the third (Gauss's
+    /// rule with the line as weight).
     pub fn split(fine: Fine) -> (Option<Self>, Option<Fine>) {
         let lines = standing_out(fine.means());
         let total: f64 = lines.iter().sum();
@@ -76,7 +75,7 @@ impl Sparse {
         (sparse, (!is_dark).then_some(left))
     }
 
-    /// These points and, where they are too many for a table, one for each node of a curve.
+    /// These points and, if they are too many for a table, one for each node of a curve.
     pub fn with_all(lines: Option<Self>, rest: &Fine) -> Self {
         let mut points = lines.map_or_else(Vec::new, |lines| lines.points);
         let nodes = (rest.first()..).zip(rest.means());
@@ -85,9 +84,9 @@ impl Sparse {
     }
 }
 
-/// What is left of a curve that is opened by a spacing: lowered to its least within half a spacing
-/// to either side, then raised to the most of that, it has lost what is narrower (Serra 1982, Image
-/// Analysis and Mathematical Morphology, ch. II).
+/// The amount by which the curve exceeds its opening by a spacing: lowered to its least within half
+/// a spacing to either side, then raised to the greatest of that, a curve loses its narrower
+/// features (Serra 1982, Image Analysis and Mathematical Morphology, ch. II).
 fn standing_out(means: &[f64]) -> Vec<f64> {
     let over = |list: &[f64], most: fn(f64, f64) -> f64| -> Vec<f64> {
         (0..list.len())
@@ -105,7 +104,7 @@ fn standing_out(means: &[f64]) -> Vec<f64> {
         .collect()
 }
 
-/// Two points of the masses at 0, 1, 2, … that have their moments up to the third; one where they
+/// The two points with the moments, up to the third, of the masses at 0, 1, 2, …; one point if they
 /// are at one place.
 fn two_points(masses: &[f64]) -> Vec<[f64; 2]> {
     let mass: f64 = masses.iter().sum();
@@ -133,8 +132,8 @@ fn two_points(masses: &[f64]) -> Vec<[f64; 2]> {
 }
 
 impl FineSensor {
-    /// The channels of f(Dλ)·g(λ), f being `sparse`, given ln D and g by the place of λ in nodes of
-    /// the axis.
+    /// The channels of f(Dλ)·g(λ), where f is `sparse`, given ln D, and g by the place of λ in
+    /// nodes of the axis.
     #[inline]
     pub fn through(&self, sparse: &Sparse, ln_doppler: f64, g: impl Fn(f64) -> f64) -> [f64; 3] {
         let shift = ln_doppler / self.axis().spacing() * PHASES as f64;
@@ -149,8 +148,8 @@ impl FineSensor {
         sum
     }
 
-    /// Writes the responses of all wavelengths to a curve that is shifted by whole nodes: three
-    /// channels of `columns`.
+    /// Writes the responses of all wavelengths to a curve shifted by whole nodes: three channels of
+    /// `columns`.
     fn respond(&self, fine: &Fine, shift: i64, columns: usize, out: &mut [f64]) {
         let last = self.axis().count() as i64 - 1;
         let dark = fine.ends_dark();
@@ -174,12 +173,14 @@ impl FineSensor {
     }
 }
 
-/// What a narrow curve makes of a smooth one, under any shift of its own: channel c of f(Dλ)·g(λ)
-/// is Σⱼ V_cj(ln D) gⱼ, gⱼ being g at the axis' wavelengths and V_cj the channel of f times the
-/// cubic (Catmull–Rom in ln λ) that is 1 at the j-th and 0 at the others. Exact for whatever g is
-/// such a cubic, so for constants; the error of others is that of the cubic, at most h²/10 of g″.
+/// The response of a sensor to a smooth curve seen through a narrow one, under any shift of the
+/// narrow one.
 ///
-/// Read at a shift it costs what the product of two baked curves does.
+/// Channel c of f(Dλ)·g(λ) is Σⱼ V_cj(ln D) gⱼ, where gⱼ is g at the axis' wavelengths and V_cj the
+/// channel of f times the cubic (Catmull-Rom in ln λ) that is 1 at the j-th and 0 at the others. It
+/// is exact for every g that is such a cubic, so for constants; the error of others is that of the
+/// cubic, at most h²/10 of g″. Reading it at a shift costs as much as the product of two baked
+/// curves.
 #[derive(Debug, Clone)]
 pub struct Responses {
     /// Rows of three channels, each as long as the axis and on to the next multiple of [`LANES`].
@@ -203,7 +204,7 @@ impl Responses {
         3.0 * rows * axis.count() as f64 <= MOST_NUMBERS
     }
 
-    /// Tabulates a curve for ln D from `low` to `high`, held beyond.
+    /// Tabulates a curve for ln D from `low` to `high`, constant beyond.
     pub fn new(sensor: &FineSensor, fine: &Fine, [low, high]: [f64; 2]) -> Self {
         let per_unit = 1.0 / (sensor.axis().spacing() * Self::SPACING);
         let count = sensor.axis().count();
@@ -218,7 +219,7 @@ impl Responses {
         let over = if scale > 0.0 { 1.0 / scale } else { 0.0 };
         let shape = |value: &f64| {
             let shape = (value * over) as f32;
-            // Subnormal numbers would cost the kernel four-fold.
+            // Subnormal numbers would slow the kernel four-fold.
             if shape.abs() < 1e-30 { 0.0 } else { shape }
         };
         Self {

@@ -1,25 +1,25 @@
-//! Light of a colour: D65 times the colour's uplift.
+//! Light of a color: D65 times the color's uplift.
 //!
-//! What files say by three numbers is light of the white that the numbers are relative to, so
-//! that (1, 1, 1) is D65 itself. Beyond their tables both go on with their ends' values.
+//! The three numbers in a file are light relative to its white, so that (1, 1, 1) is D65 itself.
+//! Beyond their tables both curves are constant.
 
 use super::daylight::d65;
 use super::uplift::Uplift;
 use super::{Sampled, SpectrumError};
 
-/// D65, 1 at 560 nm, times the smooth curve of a colour, times a scale.
+/// D65, 1 at 560 nm, times the smooth curve of a color, times a scale.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Tinted {
     scale: f64,
     white: Sampled,
     color: Uplift,
-    /// Points of D65, and the ends of the colour's curve; ascending.
+    /// Points of D65, and the ends of the color's curve; ascending.
     knots_nm: Vec<f64>,
 }
 
 impl Tinted {
-    /// The light of a linear Rec. 709 colour, each component from 0 to 1e300: D65 times its
-    /// [`Uplift`]. Under it white is seen in that colour.
+    /// The light of a linear Rec. 709 color, each component from 0 to 1e300: D65 times its
+    /// [`Uplift`]. Under it, white is seen in that color.
     pub fn new(rgb: [f64; 3]) -> Result<Self, SpectrumError> {
         let (white, color) = (d65(), Uplift::new(rgb)?);
         let mut knots_nm = white.knots_nm().to_vec();
@@ -46,17 +46,18 @@ impl Tinted {
         self.scale * (self.white.at(lambda_nm) * self.color.at(lambda_nm))
     }
 
-    /// The wavelengths at which it bends, nm; outside of them it is constant.
+    /// The wavelengths at which the curve bends, nm; outside of them it is constant.
     pub fn knots_nm(&self) -> &[f64] {
         &self.knots_nm
     }
 
-    /// The curve's greatest value. Between two points, 5 nm apart where the colour's curve is
-    /// steepest, it rises and falls once at most.
+    /// The greatest value of the curve. Between two points, 5 nm apart where the color's curve is
+    /// steepest, it rises and falls at most once.
     pub fn peak(&self) -> f64 {
         let between = |pair: &[f64]| {
             let [mut from, mut to] = [pair[0], pair[1]];
-            // Thirds, until the value no longer changes: it does by the square of the rest.
+            // Trisection until the value no longer changes, which it does by the square of the
+            // rest.
             for _ in 0..60 {
                 let third = (to - from) / 3.0;
                 if self.at(from + third) < self.at(to - third) {
@@ -71,7 +72,8 @@ impl Tinted {
         places.fold(0.0, f64::max)
     }
 
-    /// About the narrowest thing that it does, nm: a step between points or the colour's curve.
+    /// Approximate width of the narrowest feature, nm: a step between points, or that of the
+    /// color's curve.
     pub fn feature_nm(&self) -> Option<f64> {
         let gaps = self.knots_nm.windows(2).map(|pair| pair[1] - pair[0]);
         gaps.chain(self.color.feature_nm()).min_by(f64::total_cmp)

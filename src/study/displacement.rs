@@ -1,10 +1,10 @@
-//! How far surfaces stand from where they should, in pixels, as seen through the centre of each
-//! pixel; and in how many pixels another body is seen.
+//! Displacement of surfaces in pixels, as seen through the center of each pixel, and the share of
+//! pixels that show another body.
 //!
-//! A point of a surface is taken back to the image in f64: from the body's rest frame along the past
-//! light cone of the exposure to the camera's frame, and there through its projection.
+//! A point of a surface is traced back to the image in f64: from the body's rest frame along the
+//! past light cone of the exposure to the camera's frame, and there through its projection.
 
-use super::findings::Percentiles;
+use super::results::Percentiles;
 use super::spheres::{Sphere, spheres};
 use crate::image::compare::Comparison;
 use crate::model::Mesh;
@@ -13,23 +13,23 @@ use crate::trace::{BodyHit, Scratch, Seen, ShadeTrees, Tracer};
 use glam::DVec3;
 use rayon::prelude::*;
 
-/// How one image's surfaces stand against another's.
+/// Differences in the surfaces that two images show.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Displacement {
-    /// Pixels from the centre of each pixel to where the image shows the surface that was found
-    /// there, over the pixels in which both images have the same body.
+    /// Distance from the center of each pixel to the place at which the image shows the surface
+    /// found there, over the pixels in which both images show the same body. Pixels.
     pub pixels: Percentiles,
-    /// Part of all pixels in which they have not: where one shows another instance than the other,
-    /// or only one shows any.
+    /// Share of all pixels in which the images show different instances, or only one of them shows
+    /// any.
     pub mistaken: f64,
 }
 
-/// How far the points that rays of `other` find stand from the pixels they are found in: the error of
-/// rays, by weights in triangles taken as exact. In f64 what is left is the rounding of the way back,
-/// mostly below 1e-9 pixels. Next to the poles of a panorama a pixel is a small part of its row, and a
-/// surface is displaced by as many of them.
+/// Distances between the pixels and the points that rays of `other` find through them: the error of
+/// rays, with the weights in triangles taken as exact.
 ///
-/// Both views must be of the same bodies in the same order, before the same camera.
+/// In f64 the rest is the rounding of the way back, mostly below 1e-9 pixels. Near the poles of a
+/// panorama a pixel is a small part of its row, and a surface is displaced by as many of them. Both
+/// views must show the same bodies in the same order from the same camera.
 pub fn displacement(reference: &View<'_>, other: &View<'_>, size: [u32; 2]) -> Displacement {
     compare(reference, other, size, |hit| {
         let geometry = &other.tracer().scene.geometry;
@@ -39,9 +39,9 @@ pub fn displacement(reference: &View<'_>, other: &View<'_>, size: [u32; 2]) -> D
     })
 }
 
-/// The same for tessellated spheres: how far the points of the exact spheres that stand, seen from
-/// their centers, behind the points found in `other` are from the pixels. Bodies that are no spheres
-/// ([`spheres`]) stand where they are.
+/// The same for tessellated spheres: distances between the pixels and the points of the exact
+/// spheres that lie behind the points found in `other`, as seen from the spheres' centers. Bodies
+/// that are not spheres ([`spheres`]) count as exact.
 pub fn displacement_of_spheres(
     reference: &View<'_>,
     other: &View<'_>,
@@ -57,10 +57,10 @@ pub fn displacement_of_spheres(
     })
 }
 
-/// The spheres that triangles of one mesh stand for.
+/// The exact spheres that the triangles of one mesh approximate.
 struct Exact {
     spheres: Vec<Sphere>,
-    /// By triangle.
+    /// Number of the sphere of each triangle.
     numbers: Vec<Option<u32>>,
 }
 
@@ -76,7 +76,7 @@ impl Exact {
         Self { spheres, numbers }
     }
 
-    /// The point of the sphere, or of the triangle where it belongs to none.
+    /// The point of the sphere, or of the triangle if it belongs to none.
     fn point(&self, mesh: &Mesh, hit: &BodyHit) -> DVec3 {
         let corners = mesh.triangles[hit.triangle as usize].map(|i| mesh.positions[i as usize]);
         let [a, b, c] = hit.weights;
@@ -91,8 +91,8 @@ impl Exact {
     }
 }
 
-/// Compares pixel by pixel; `stands` says where in the rest frame of its body a hit of `other`
-/// should stand.
+/// Compares pixel by pixel. `stands` gives the exact place, in the rest frame of its body, for a
+/// hit of `other`.
 fn compare(
     reference: &View<'_>,
     other: &View<'_>,
@@ -129,17 +129,17 @@ fn compare(
     }
 }
 
-/// What a pixel's centre sees in both images.
+/// What the center of a pixel shows in both images.
 enum Pixel {
-    /// No body.
+    /// No body in either.
     Empty,
-    /// One body, displaced by so many pixels.
+    /// The same body, displaced by this many pixels.
     Off(f64),
-    /// Not one body.
+    /// Different bodies.
     Mistaken,
 }
 
-/// In fractions of the image.
+/// The center of a pixel, in fractions of the image.
 fn pixel_center([x, y]: [u32; 2], [width, height]: [u32; 2]) -> [f64; 2] {
     [
         (f64::from(x) + 0.5) / f64::from(width),
@@ -147,7 +147,8 @@ fn pixel_center([x, y]: [u32; 2], [width, height]: [u32; 2]) -> [f64; 2] {
     ]
 }
 
-/// What the rays through image points meet first; None also where the camera looks nowhere.
+/// The first hits of the rays through image points; None for no hit, and where a projection has no
+/// ray.
 fn first_hits(view: &View<'_>, points: &[[f64; 2]]) -> Vec<Option<BodyHit>> {
     let tracer = Tracer {
         shadows: false,
@@ -167,8 +168,8 @@ fn first_hits(view: &View<'_>, points: &[[f64; 2]]) -> Vec<Option<BodyHit>> {
     aims.iter().map(|aim| aim.and_then(|_| first())).collect()
 }
 
-/// How many pixels from `point` the image shows a place in the rest frame of an instance; None where
-/// it shows it nowhere.
+/// Distance in pixels from `point` to the place at which the image shows a point in the rest frame
+/// of an instance; None if the image does not show it.
 fn off_by(
     view: &View<'_>,
     instance: u32,

@@ -1,8 +1,8 @@
-//! What each effect costs: the image with it against the image without, turn by turn.
+//! Cost of each effect: the image with and without it, rendered alternately.
 
-use super::findings::EffectCost;
-use super::rounds::{median, most_rounds as pairs, timing};
-use super::subject::{Bodies, Subject, Variant};
+use super::interleaved_timing::{median, most_rounds as pairs, timing};
+use super::results::EffectCost;
+use super::timed_render::{Bodies, Subject, Variant};
 use super::{Start, StudyError};
 use crate::frame::{ActiveEffects, Frame, Splice};
 use crate::scene::{Library, Scene};
@@ -10,8 +10,8 @@ use crate::shot::{Beaming, Effects, Shot, Switch};
 use crate::trace::Stage;
 use std::sync::Arc;
 
-/// An effect: its name, whether the image calls for it, how a shot is without it, what the 1990
-/// paper says of it.
+/// An effect: its name, whether the image needs it, how a shot is changed to be without it, and
+/// what the 1990 paper says of it.
 struct Effect {
     name: &'static str,
     called: bool,
@@ -46,10 +46,10 @@ fn effects(called: &ActiveEffects) -> [Effect; 6] {
     ]
 }
 
-/// Pairs of renders a round: what an effect costs may be less than times differ.
+/// Pairs of renders per round. The cost of an effect can be less than the scatter of times.
 const PAIRS: u32 = 3;
 
-/// Costs of all effects, each timed by [`PAIRS`] pairs a round.
+/// Costs of all effects, each timed by [`PAIRS`] pairs per round.
 pub(super) fn costs(
     start: &Start<'_>,
     library: &Library,
@@ -65,7 +65,7 @@ pub(super) fn costs(
             ..on.clone()
         };
         let named = match effect.name {
-            // The two are turned off together.
+            // The two are switched off together.
             "mirror" if !called.mirror && called.refraction => "refraction",
             name => name,
         };
@@ -83,7 +83,7 @@ pub(super) fn costs(
     Ok(costs)
 }
 
-/// A shot with an effect turned off, in its splices too.
+/// The shot with an effect switched off, in its splices too.
 fn without(shot: &Shot, off: fn(&mut Effects)) -> Shot {
     let mut shot = shot.clone();
     for splice in &mut shot.splice {
@@ -101,7 +101,8 @@ fn without(shot: &Shot, off: fn(&mut Effects)) -> Shot {
     shot
 }
 
-/// Bodies and lamps on worldlines of their own, against all of them on that of the first model.
+/// Cost of bodies and lamps on worldlines of their own, compared with all of them on that of the
+/// first model.
 fn second_worldline(
     start: &Start<'_>,
     library: &Library,
@@ -143,7 +144,7 @@ fn second_worldline(
     })
 }
 
-/// Times of two variants, rendered in turn, and what the first costs over the second.
+/// Times of two variants, rendered alternately, and the cost of the first over the second.
 fn cost(
     [on, off]: [&Variant; 2],
     subject: &Subject,
@@ -152,7 +153,7 @@ fn cost(
     let (mut with, mut without) = (Vec::new(), Vec::new());
     let mut round = 0;
     while round < pairs(PAIRS * rounds, with.first().copied()) {
-        // Whoever comes second finds warmer caches: turn about.
+        // The second of a pair finds warmer caches, so the order alternates.
         let pair = if round % 2 == 0 {
             [(on, &mut with), (off, &mut without)]
         } else {
@@ -169,7 +170,7 @@ fn cost(
         .map(|(a, b)| a / b - 1.0)
         .collect();
     ratios.sort_by(f64::total_cmp);
-    // Without a tenth at either end.
+    // Without the outer tenth at either end.
     let tenth = ratios.len().div_ceil(10).min((ratios.len() - 1) / 2);
     Ok(EffectCost {
         effect: "",

@@ -1,7 +1,7 @@
-//! How far an image is from its reference: by light and by eye.
+//! Errors of an image against its reference, in radiance and in color.
 
 use super::StudyError;
-use super::findings::{Errors, Percentiles};
+use super::results::{Errors, Percentiles};
 use crate::color::spaces::{D65_XYZ, XYZ_FROM_RGB, apply};
 use crate::color::{delta_e_2000, lab_from_xyz};
 use crate::film::{Channels, Developed, Film, develop};
@@ -27,8 +27,8 @@ pub(super) fn errors(
     })
 }
 
-/// CIEDE2000 of the pixels of two developed films as a display shows them: what is beyond its range
-/// is cut off, nothing is rounded.
+/// CIEDE2000 of the pixels of two developed films as a display shows them: values beyond its range
+/// are clipped, nothing is rounded.
 pub(super) fn color_differences(one: &Developed, other: &Developed) -> Percentiles {
     let lab = |rgb: &[f32; 3]| {
         let shown = rgb.map(|value| f64::from(value).clamp(0.0, 1.0));
@@ -49,7 +49,7 @@ pub(super) fn color_differences(one: &Developed, other: &Developed) -> Percentil
     percentiles(differences)
 }
 
-/// Sums up values of all pixels.
+/// Mean, percentile and maximum over all pixels.
 pub(super) fn percentiles(values: Vec<f64>) -> Percentiles {
     let Comparison { mean, p99, worst } = Comparison::of(values);
     Percentiles { mean, p99, worst }

@@ -1,14 +1,14 @@
-//! The greatest memory of this process, as Linux counts it (proc(5): `clear_refs`, `VmHWM`).
+//! Peak memory of this process, as Linux counts it (proc(5): `clear_refs`, `VmHWM`).
 
 use std::fs;
 
-/// Forgets the greatest memory so far. Answers whether the system could.
+/// Resets the peak. Returns whether the system allows it.
 pub(super) fn forget_peak() -> bool {
     const PEAK: &str = "5";
     fs::write("/proc/self/clear_refs", PEAK).is_ok()
 }
 
-/// Greatest resident memory since [`forget_peak`], MiB.
+/// Largest resident memory since [`forget_peak`], MiB.
 pub(super) fn peak_mib() -> Option<f64> {
     let status = fs::read_to_string("/proc/self/status").ok()?;
     let line = status.lines().find_map(|l| l.strip_prefix("VmHWM:"))?;

@@ -1,26 +1,26 @@
-//! Accuracy against time: one image rendered at many settings of one knob at a time, by the same
-//! [`render`](crate::render) as everyone calls.
+//! Accuracy against time: one image rendered at many settings, one knob at a time, by the same
+//! [`render`](crate::render) as every image.
 //!
-//! In: a shot without mistakes. Out: a [`Study`]. The other knobs stand as the shot has them, in
-//! the setting and in what it is compared with, so that an error is that of the knob alone. Bodies
-//! and their trees are built before anything is timed, as for all frames of a sequence but the
-//! first. Where the shot's spectra are exact, other knobs and effects are studied by the grid.
+//! In: a shot without mistakes. Out: a [`Study`]. The other knobs keep the values of the shot, both
+//! in a setting and in its reference, so that an error is that of the knob alone. Bodies and their
+//! trees are built before timing, as for all frames of a sequence but the first. If the shot's
+//! spectra are exact, other knobs and effects are studied with the grid.
 
+mod compare_1990;
 pub mod displacement;
 mod effects;
 mod errors;
-pub mod findings;
+mod interleaved_timing;
 mod knobs;
 mod memory;
-mod paper;
 mod ranking;
 pub mod report;
-mod rounds;
+pub mod results;
 pub mod spheres;
-mod subject;
 mod sweep;
+mod timed_render;
 
-pub use findings::Study;
+pub use results::Study;
 
 use crate::frame::{ActiveEffects, Frame};
 use crate::image::EncodeError;
@@ -30,48 +30,48 @@ use crate::render::Options;
 use crate::scene::Scene;
 use crate::shot::{Accuracy, Mistakes, Shot, Spectra};
 use crate::trace::Stage;
-use findings::{Machine, Noise, PhaseTime};
+use compare_1990::Compared;
+use interleaved_timing::{Measured, measure, median};
 use knobs::KNOBS;
-use paper::Compared;
-use rounds::{Measured, measure, median};
+use results::{Machine, Noise, PhaseTime};
 use std::path::PathBuf;
 use std::sync::Arc;
-use subject::{Bodies, PHASES, Subject, Variant};
+use timed_render::{Bodies, PHASES, Subject, Variant};
 
-/// What is studied.
+/// What to study.
 #[derive(Debug, Clone)]
 pub struct Request {
-    /// Number of the frame, among those of the shot.
+    /// Frame number, one of those of the shot.
     pub frame: u32,
-    /// Size and samples of its picture.
+    /// Size and samples of the image.
     pub options: Options,
-    /// How often every setting is rendered, at least 1.
+    /// Number of renders of each setting, at least 1.
     pub repeats: u32,
-    /// A folder for files that nobody reads.
+    /// Scratch folder; its files are written only to time writing.
     pub scratch: PathBuf,
 }
 
-/// Why there is no study.
+/// Reason why a study failed.
 #[derive(Debug, thiserror::Error)]
 pub enum StudyError {
     /// The shot has a mistake that shows in this frame.
     #[error("the shot has mistakes")]
     Mistakes(#[from] Mistakes),
-    /// The encoder refused.
+    /// An image could not be encoded.
     #[error(transparent)]
     Encode(#[from] EncodeError),
-    /// A picture could not be written.
+    /// A file could not be written.
     #[error("{0}")]
     Write(#[from] std::io::Error),
-    /// A picture that was written could not be read again.
+    /// A file that was written could not be read back.
     #[error("a picture just written cannot be read: {0}")]
     Read(#[from] image::ImageError),
-    /// Two pictures could not be compared.
+    /// Two images could not be compared.
     #[error(transparent)]
     Compare(#[from] CompareError),
 }
 
-/// The image as the shot has it, from which every variant starts.
+/// The image with the settings of the shot, from which every variant starts.
 #[derive(Clone)]
 pub(crate) struct Start<'a> {
     shot: &'a Shot,
@@ -81,7 +81,7 @@ pub(crate) struct Start<'a> {
 }
 
 impl Start<'_> {
-    /// A variant that differs in nothing yet.
+    /// A variant that does not differ yet.
     fn variant(&self, setting: String, toml: Option<String>) -> Variant {
         Variant {
             setting,
@@ -94,7 +94,7 @@ impl Start<'_> {
         }
     }
 
-    /// The shot as it is.
+    /// The shot unchanged.
     fn as_it_is(&self) -> Variant {
         Variant {
             family: "as it is".to_owned(),
@@ -104,7 +104,7 @@ impl Start<'_> {
     }
 }
 
-/// Studies one image. `news` is told what is being done.
+/// Studies one image. `news` receives a line on each step.
 ///
 /// # Errors
 /// Mistakes of the frame; files that cannot be written or read.
@@ -136,7 +136,7 @@ pub fn study(
         ..start.clone()
     };
     for (number, knob) in KNOBS.into_iter().enumerate() {
-        // Spectra come first.
+        // Spectra are the first knob.
         let start = if number == 0 { &start } else { &quick };
         let knob = knob(start, &called);
         news(&format!("{}: {} settings", knob.key, knob.variants.len()));
@@ -191,8 +191,8 @@ pub fn study(
     })
 }
 
-/// The shot as its other knobs are studied: exact spectra would take hours, and their error is not
-/// that of the knob.
+/// The shot for knobs other than spectra. Exact spectra would take hours, and do not change the
+/// error of another knob.
 fn by_grid(shot: &Shot) -> Shot {
     let mut shot = shot.clone();
     if shot.accuracy.spectra == Spectra::Exact {
@@ -201,7 +201,7 @@ fn by_grid(shot: &Shot) -> Shot {
     shot
 }
 
-/// The shot as it is, twice; without shift; by lines, splines and the grid.
+/// The renders to compare: the shot twice; without shift; by lines, splines and the grid.
 fn compare(
     start: &Start<'_>,
     called: &ActiveEffects,
@@ -236,10 +236,10 @@ fn compare(
     Ok(variants.map(|_| measured.next().expect("one is measured for each variant").0))
 }
 
-/// More than this, and settings within a tenth of each other cannot be told apart.
+/// Noise above which settings within a tenth of each other cannot be told apart.
 const NOISY: f64 = 0.1;
 
-/// How much equal work differs, by the shot as it is, measured twice.
+/// Scatter of equal work, from the unchanged shot measured twice.
 fn noise(compared: &[Measured; 6]) -> Noise {
     let [one, other, ..] = compared;
     let mut spreads: Vec<f64> = compared
@@ -276,7 +276,7 @@ fn phases(measured: &Measured) -> Vec<PhaseTime> {
         .collect()
 }
 
-/// The processor's model, where the system tells.
+/// Model of the processor, if the system states it.
 fn processor() -> Option<String> {
     let text = std::fs::read_to_string("/proc/cpuinfo").ok()?;
     let line = text.lines().find(|line| line.starts_with("model name"))?;

@@ -1,17 +1,18 @@
 //! Which settings are worth their time: the Pareto front, the price of half the error, and the
-//! cheapest within a limit.
+//! cheapest setting within a limit.
 
-use super::findings::{Halving, Point, Recommendation, Sweep};
+use super::results::{Halving, Point, Recommendation, Sweep};
 
-/// The difference of color below which nobody sees one side by side, and a stricter one for work
-/// that goes on from the picture (CIEDE2000; 1 is about what the eye can just tell).
+/// Color differences (CIEDE2000; about 1 is just visible) for recommendations: one that nobody sees
+/// side by side, and a stricter one for images that are processed further.
 pub(super) const LIMITS: [f64; 2] = [0.5, 0.1];
 
-/// An error that falls by less does not fall: the price of half of it would be noise.
+/// Smallest ratio by which an error must fall to count as falling; the price of half of it would be
+/// noise otherwise.
 const FALLS: f64 = 1.1;
 
-/// Marks the points than which no other is at least as exact and faster by more than `noise`, the
-/// part by which times of equal work differ.
+/// Marks the points for which no other point is at least as exact and faster by more than `noise`,
+/// the relative scatter of equal work.
 pub(super) fn mark_pareto(points: &mut [Point], noise: f64) {
     let placed: Vec<Option<[f64; 2]>> = points
         .iter()
@@ -26,13 +27,13 @@ pub(super) fn mark_pareto(points: &mut [Point], noise: f64) {
     }
 }
 
-/// The error that a sweep is about: of color at the 99th percentile, else of radiance.
+/// The error that a sweep is about: of color at the 99th percentile, or else of radiance.
 pub(super) fn error(point: &Point) -> Option<f64> {
     let errors = point.errors.as_ref()?;
     Some(errors.delta_e.map_or(errors.radiance, |e| e.p99))
 }
 
-/// What each step to the next finer setting of a family costs and brings.
+/// Cost and gain of each step to the next finer setting of a family.
 pub(super) fn halvings(points: &[Point]) -> Vec<Halving> {
     let step = |pair: &[&Point]| {
         let (error_before, error_after) = (error(pair[0])?, error(pair[1])?);
@@ -63,8 +64,8 @@ pub(super) fn halvings(points: &[Point]) -> Vec<Halving> {
         .collect()
 }
 
-/// The cheapest setting of a sweep whose colors stay within each of the [`LIMITS`]. Of those that
-/// `noise` does not tell apart the shot's own, else the most exact.
+/// The cheapest setting of a sweep whose colors stay within each of the [`LIMITS`]. Among settings
+/// that `noise` does not tell apart, the shot's own, or else the most exact.
 pub(super) fn recommendations(sweep: &Sweep, noise: f64) -> Vec<Recommendation> {
     let delta_e = |point: &Point| Some(point.errors?.delta_e?.p99);
     if !sweep.points.iter().any(|point| delta_e(point).is_some()) {
@@ -88,7 +89,7 @@ pub(super) fn recommendations(sweep: &Sweep, noise: f64) -> Vec<Recommendation> 
 
 fn cheapest(sweep: &Sweep, limit: f64, noise: f64) -> Option<&Point> {
     let points = &sweep.points;
-    // Filters make pictures of their own, each measured against itself.
+    // Filters make images of their own, each measured against itself.
     let own = points.iter().find(|point| point.current);
     let same_picture = |point: &&Point| {
         sweep.knob != "image.samples" || own.is_none_or(|own| own.family == point.family)
@@ -114,7 +115,7 @@ fn cheapest(sweep: &Sweep, limit: f64, noise: f64) -> Option<&Point> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::study::findings::{Errors, Percentiles, Timing};
+    use crate::study::results::{Errors, Percentiles, Timing};
 
     fn point(setting: &str, seconds: f64, error: f64) -> Point {
         let delta_e = Percentiles {

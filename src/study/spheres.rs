@@ -1,8 +1,9 @@
-//! Spheres among the triangles of meshes, and the same bodies with spheres of another tessellation.
+//! Recognition of spheres among the triangles of meshes, and the same bodies with other
+//! tessellations.
 //!
-//! A sphere is a connected, closed part of a mesh whose vertices lie on one, with triangles small
-//! enough and alike enough that no other body is meant: cubes, cylinders and domes have their
-//! vertices on a sphere too.
+//! A sphere is a connected, closed part of a mesh whose vertices lie on one, with triangles so
+//! small and so similar that no other body can be meant: cubes, cylinders and domes also have their
+//! vertices on a sphere.
 
 use crate::model::Mesh;
 use crate::scene::Geometry;
@@ -12,29 +13,29 @@ use std::collections::{HashMap, HashSet};
 use std::f64::consts::PI;
 use std::sync::Arc;
 
-/// How far vertices may be from the sphere, in radii: files hold f32, or six decimals.
+/// Largest distance of vertices from the sphere, in radii: files hold f32, or six decimals.
 const TOLERANCE: f64 = 1e-5;
-/// Fewest vertices: those of an icosahedron.
+/// Smallest number of vertices, that of an icosahedron.
 const FEWEST: usize = 12;
-/// How near to the center the plane of a triangle may come, in radii. In a cylinder of two rings a
-/// side or a lid comes to √½ or nearer; in an icosahedron all stay at 0.795.
+/// Smallest distance of the plane of a triangle from the center, in radii. In a cylinder of two
+/// rings a side or a lid is at √½ or nearer; in an icosahedron all are at 0.795.
 const NEAREST_PLANE: f64 = 0.72;
-/// How many times wider than the middle one the widest circle about a triangle may be: √2 in
-/// spheres of rows and columns, but many times in one that is cut off flat.
+/// Largest ratio of the widest circle about a triangle to the median one: √2 in spheres of rows and
+/// columns, but much more in one that is cut off flat.
 const WIDEST: f64 = 2.5;
-/// The least volume, as a part of the ball's; an icosahedron has 0.605.
+/// Smallest volume, as a share of the ball's; an icosahedron has 0.605.
 const LEAST_VOLUME: f64 = 0.5;
 
-/// A part of a mesh that stands for a sphere, in the mesh's coordinates.
+/// A part of a mesh that represents a sphere, in mesh coordinates.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Sphere {
-    /// Center, metres.
+    /// Center, meters.
     pub center: DVec3,
-    /// Radius, metres.
+    /// Radius, meters.
     pub radius: f64,
-    /// The triangles that it is made of, ascending.
+    /// Its triangles, ascending.
     pub triangles: Vec<u32>,
-    /// Whether its front is the inside.
+    /// Whether the front of its triangles is inside.
     pub inward: bool,
 }
 
@@ -48,13 +49,12 @@ pub fn spheres(mesh: &Mesh) -> Vec<Sphere> {
 }
 
 /// The bodies with each sphere replaced by an icosahedron whose triangles are divided in four
-/// `level` times: 20·4^level triangles with their vertices on the sphere, whose normals are the
-/// sphere's. The surface is off by about 0.2·4^−level of the radius; time grows slowly, memory as
-/// the triangles (some 130 bytes each in f64): more than level 8 is of little use. None where no mesh
-/// holds a sphere.
+/// `level` times: 20·4^level triangles with vertices on the sphere and normals of the sphere.
 ///
-/// Instances keep their numbers and materials, and triangles that belong to no sphere what they
-/// look like, but not their numbers.
+/// The surface is off by about 0.2·4^−level of the radius. Time grows slowly with the level, memory
+/// like the number of triangles (about 130 bytes each in f64); levels above 8 are of little use.
+/// None if no mesh contains a sphere. Instances keep their numbers and materials; triangles that
+/// belong to no sphere keep their look but not their numbers.
 pub fn tessellated(geometry: &Geometry, level: u32) -> Option<Geometry> {
     let found: Vec<Vec<Sphere>> = geometry.meshes.iter().map(|mesh| spheres(mesh)).collect();
     if found.iter().all(Vec::is_empty) {
@@ -72,15 +72,15 @@ pub fn tessellated(geometry: &Geometry, level: u32) -> Option<Geometry> {
     Some(tessellated)
 }
 
-/// The triangles with the first of all vertices that stand at one place: files repeat vertices
-/// where normals or textures differ.
+/// The triangles, with the first of all vertices at one place: files repeat vertices where normals
+/// or textures differ.
 fn welded(mesh: &Mesh) -> Vec<[u32; 3]> {
     let mut first = HashMap::new();
     let places: Vec<u32> = mesh
         .positions
         .iter()
         .zip(0..)
-        // Zero of either sign is one place.
+        // Zeros of either sign are the same place.
         .map(|(p, i)| {
             *first
                 .entry((*p + DVec3::ZERO).to_array().map(f64::to_bits))
@@ -93,7 +93,7 @@ fn welded(mesh: &Mesh) -> Vec<[u32; 3]> {
         .collect()
 }
 
-/// Numbers of the triangles that hang together, in the order of their first.
+/// Connected components of the triangles, in the order of their first triangle.
 fn components(triangles: &[[u32; 3]], vertices: usize) -> Vec<Vec<u32>> {
     let mut parents: Vec<u32> = (0..vertices as u32).collect();
     let root = |parents: &mut Vec<u32>, mut i: u32| {
@@ -119,7 +119,7 @@ fn components(triangles: &[[u32; 3]], vertices: usize) -> Vec<Vec<u32>> {
     parts.into_values().collect()
 }
 
-/// The sphere that a part of the mesh stands for, if it does.
+/// The sphere that a part of the mesh represents, if it does.
 fn sphere(mesh: &Mesh, welded: &[[u32; 3]], triangles: Vec<u32>) -> Option<Sphere> {
     let corners: Vec<[u32; 3]> = triangles.iter().map(|&i| welded[i as usize]).collect();
     let mut vertices: Vec<u32> = corners.iter().flatten().copied().collect();
@@ -147,16 +147,16 @@ fn sphere(mesh: &Mesh, welded: &[[u32; 3]], triangles: Vec<u32>) -> Option<Spher
     })
 }
 
-/// Whether each edge is passed once in either direction.
+/// Whether each edge occurs once in either direction.
 fn is_closed(triangles: &[[u32; 3]]) -> bool {
     let edges = |&[a, b, c]: &[u32; 3]| [(a, b), (b, c), (c, a)];
     let passed: HashSet<(u32, u32)> = triangles.iter().flat_map(edges).collect();
     passed.len() == 3 * triangles.len() && passed.iter().all(|&(a, b)| passed.contains(&(b, a)))
 }
 
-/// Center and radius of the sphere that fits the points best: the algebraic fit, in which
-/// |p|² = 2c·p + k is linear in the center c and k = r² − |c|², by least squares. None where the
-/// points lie in a plane.
+/// Center and radius of the sphere that fits the points best. The algebraic fit: |p|² = 2c·p + k is
+/// linear in the center c and in k = r² − |c|², and is solved by least squares. None if the points
+/// lie in a plane.
 fn fitted(points: &[DVec3]) -> Option<(DVec3, f64)> {
     let count = points.len() as f64;
     let middle = points.iter().sum::<DVec3>() / count;
@@ -171,7 +171,7 @@ fn fitted(points: &[DVec3]) -> Option<(DVec3, f64)> {
         normal += DMat4::from_cols(row * row.x, row * row.y, row * row.z, row * row.w);
         right += row * p.length_squared();
     }
-    // Sums over the count are of order 1, so the determinant tells a plane.
+    // Divided by the count the sums are of order 1, so that the determinant indicates a plane.
     if (normal * (1.0 / count)).determinant().abs() < 1e-9 {
         return None;
     }
@@ -181,8 +181,8 @@ fn fitted(points: &[DVec3]) -> Option<(DVec3, f64)> {
     (center.is_finite() && radius.is_finite()).then_some((middle + center * size, radius * size))
 }
 
-/// The signed volume within triangles whose vertices lie on the unit sphere, where they wrap it
-/// once and evenly; negative where their fronts are inside.
+/// The signed volume within triangles whose vertices lie on the unit sphere, if they cover it once
+/// and evenly; negative if their fronts are inside.
 fn unit_sphere_volume(facets: impl Iterator<Item = [DVec3; 3]>) -> Option<f64> {
     let mut volume = 0.0;
     let mut circles = Vec::new();
@@ -221,7 +221,7 @@ fn replaced(mesh: &Mesh, spheres: &[Sphere], unit: &Icosphere) -> Mesh {
     made
 }
 
-/// What of a mesh is no sphere, with normals: where it had none each triangle gets its own.
+/// The part of a mesh that is no sphere, with normals: a triangle without them gets its own.
 fn rest_of(mesh: &Mesh, spheres: &[Sphere]) -> Mesh {
     let gone: HashSet<u32> = spheres.iter().flat_map(|s| &s.triangles).copied().collect();
     let mut rest = Mesh {
@@ -254,7 +254,7 @@ fn rest_of(mesh: &Mesh, spheres: &[Sphere]) -> Mesh {
     rest
 }
 
-/// A tessellation of the unit sphere about the origin, wound outward.
+/// A tessellation of the unit sphere about the origin, with fronts outside.
 struct Icosphere {
     positions: Vec<DVec3>,
     triangles: Vec<[u32; 3]>,
@@ -268,7 +268,7 @@ impl Icosphere {
         made
     }
 
-    /// Poles, and two rings of five between them at the latitudes ±atan ½.
+    /// The icosahedron: poles, and two rings of five between them at the latitudes ±atan ½.
     fn icosahedron() -> Self {
         let (low, high) = (0.2_f64.sqrt(), 0.8_f64.sqrt());
         let ring = |up: f64, turn: f64| {

@@ -1,16 +1,16 @@
-//! One knob measured: times, memory and errors of its settings.
+//! Measurement of one knob: times, memory and errors of its settings.
 
 use super::errors::{color_differences, errors};
-use super::findings::{Errors, Point, Sweep};
+use super::interleaved_timing::{Measured, measure};
 use super::knobs::Knob;
-use super::rounds::{Measured, measure};
-use super::subject::{Run, Subject, Variant, phase};
+use super::results::{Errors, Point, Sweep};
+use super::timed_render::{Run, Subject, Variant, phase};
 use super::{StudyError, ranking};
 use crate::color::spaces;
 use crate::film::{Channels, Developed, Film, develop};
 use crate::render::development;
 
-/// Measures a knob's settings in rounds; `noise` is the part by which times of equal work differ.
+/// Measures the settings of a knob in rounds. `noise` is the relative scatter of equal work.
 pub(super) fn sweep(
     knob: &Knob,
     subject: &Subject,
@@ -71,7 +71,7 @@ fn point(knob: &Knob, variant: &Variant, measured: &Measured, errors: Option<Err
     }
 }
 
-/// Errors of a setting against the reference's pixels.
+/// Errors of a setting against the pixels of its reference.
 fn compared(
     knob: &Knob,
     variants: [&Variant; 2],
@@ -93,7 +93,7 @@ fn compared(
     Ok(errors)
 }
 
-/// What is lost in a file: the picture read from it against the film.
+/// Errors of a file format: the image read back against the film.
 fn file_errors(variant: &Variant, run: &Run, subject: &Subject) -> Result<Errors, StudyError> {
     let film = &run.film;
     let exact = develop(film, &development(variant.shot.sensor.color, subject.stops));

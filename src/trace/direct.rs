@@ -4,11 +4,10 @@
 use super::clock::timed_shadow;
 use super::stage::RestRay;
 use super::surface::Place;
-use super::{Lit, Tracer};
+use super::{DirectLight, ShadeTrees, Tracer};
 use crate::relativity::{Event, light_arriving};
-use crate::scene::{Light, LightShape, Material};
+use crate::scene::{Light, LightShape, Lobe, Material};
 use glam::DVec3;
-use std::f64::consts::PI;
 
 /// Nearest distance of a lamp that is told apart, m: the Planck length. Irradiance, I cos θ/r²,
 /// grows without bound towards a point of light, and beyond all numbers below 1e-154 m; nearer than
@@ -33,27 +32,28 @@ pub(super) fn add_lamps(
     tracer: &Tracer<'_>,
     surface: &Place,
     material: &Material,
-    lit: &mut Vec<Lit>,
+    trees: &mut ShadeTrees,
 ) {
+    let lobes = material.bsdf.non_specular();
     for (index, light) in tracer.scene.lights.iter().enumerate() {
-        if let Some(lamp) = light_on(tracer, surface, material, light) {
-            lit.push(Lit {
-                light: index as u32,
-                ..lamp
-            });
-        }
+        let Some((irradiance, incoming)) = light_on(tracer, surface, light) else {
+            continue;
+        };
+        trees.direct.push(DirectLight {
+            light: index as u32,
+            first_weight: trees.weights.len() as u32,
+            doppler: incoming.doppler,
+        });
+        let (normal, to_lamp) = (surface.point.normal, -incoming.in_surface);
+        let weight = |lobe: &Lobe| lobe.reflected(irradiance, normal, to_lamp, surface.view());
+        trees.weights.extend(lobes.iter().map(weight));
     }
 }
 
-fn light_on(
-    tracer: &Tracer<'_>,
-    surface: &Place,
-    material: &Material,
-    light: &Light,
-) -> Option<Lit> {
+/// share · cos θ / r² of a lamp, m⁻², and its light, where it lights the surface.
+fn light_on(tracer: &Tracer<'_>, surface: &Place, light: &Light) -> Option<(f64, Incoming)> {
     let incoming = incoming(tracer, surface, light)?;
-    let to_lamp = -incoming.in_surface;
-    let cos = surface.point.normal.dot(to_lamp);
+    let cos = surface.point.normal.dot(-incoming.in_surface);
     if cos <= 0.0 || incoming.falloff <= 0.0 {
         return None;
     }
@@ -61,20 +61,7 @@ fn light_on(
     if tracer.shadows && timed_shadow(tracer.clock, shaded) {
         return None;
     }
-    let irradiance = incoming.falloff * cos;
-    let highlight = material.highlight.as_ref().map_or(0.0, |highlight| {
-        let n = highlight.exponent;
-        let half = (to_lamp + surface.view()).normalize_or(surface.point.normal);
-        let lobe = surface.point.normal.dot(half).max(0.0).powf(n);
-        irradiance * (n + 8.0) / (8.0 * PI) * lobe
-    });
-    let doppler = incoming.doppler;
-    Some(Lit {
-        light: 0,
-        doppler,
-        diffuse: irradiance / PI,
-        highlight,
-    })
+    Some((incoming.falloff * cos, incoming))
 }
 
 /// The lamp's light at the surface event, or None where the lamp is at that very event: there its

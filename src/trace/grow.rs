@@ -7,7 +7,7 @@
 use super::flight::Flight;
 use super::optics::{Boundary, boundary, reflected};
 use super::surface::Place;
-use super::tree::{Branch, Node, Seen, Term};
+use super::tree::{Branch, Node, Seen};
 use super::{Nearest, ShadeTrees, Tracer};
 use crate::scene::Material;
 use glam::DVec3;
@@ -26,7 +26,7 @@ struct Bud {
     depth: u32,
     flight: Flight,
     parent: u32,
-    term: Term,
+    lobe: u32,
     share: f64,
     /// D from the surface it leaves to the camera.
     doppler: f64,
@@ -71,7 +71,7 @@ pub(super) fn grow(
         let doppler = held(bud.doppler / nearest.frequency_ratio);
         let branch = Branch {
             parent: bud.parent,
-            term: bud.term,
+            lobe: bud.lobe,
             share: bud.share,
             doppler: 1.0 / nearest.frequency_ratio,
         };
@@ -102,7 +102,7 @@ fn add_sky(tracer: &Tracer<'_>, bud: &Bud, trees: &mut ShadeTrees) {
         trees.nodes.push(Node {
             branch: Some(Branch {
                 parent: bud.parent,
-                term: bud.term,
+                lobe: bud.lobe,
                 share: bud.share,
                 doppler: to_surface,
             }),
@@ -155,7 +155,7 @@ impl Buds {
                     slowness: ray.slowness,
                 },
                 parent: stem.node,
-                term: ray.term,
+                lobe: ray.lobe,
                 share: ray.share,
                 doppler: stem.doppler,
             });
@@ -167,10 +167,11 @@ impl Buds {
 
 /// Light that a surface passes on.
 struct Passed {
-    term: Term,
-    /// Share that the term is given.
+    /// Position of the lobe among the material's.
+    lobe: u32,
+    /// Share that the lobe is given.
     share: f64,
-    /// The share times the term's reflectance or transmittance at its highest.
+    /// The share times the lobe's reflectance or transmittance at its highest.
     most: f64,
     direction: DVec3,
     /// Whether it comes from the other side of the surface.
@@ -183,16 +184,17 @@ struct Passed {
 fn passed_on(place: &Place, material: &Material, slowness: f64) -> impl Iterator<Item = Passed> {
     let d = place.incoming;
     let flat = place.point.flat_normal;
-    let glass = material.refraction.as_ref();
+    let glass = material.bsdf.refraction();
+    let ior = glass.map(|(.., ior)| ior);
     // On the viewer's side and beyond. Behind a boundary is its glass, however the ray came there.
-    let [slowness, slowness_beyond] = match glass {
-        Some(glass) if !place.front => [glass.ior, 1.0],
-        Some(glass) => [slowness, glass.ior],
+    let [slowness, slowness_beyond] = match ior {
+        Some(ior) if !place.front => [ior, 1.0],
+        Some(ior) => [slowness, ior],
         None => [slowness; 2],
     };
     let at_boundary = |n: DVec3| {
         let outwards = |ior: f64| if place.front { 1.0 / ior } else { ior };
-        glass.map(|glass| boundary(d, n, outwards(glass.ior)))
+        ior.map(|ior| boundary(d, n, outwards(ior)))
     };
     // Interpolated normals may turn away from the viewer, or send light to the wrong side.
     let usable = |n: DVec3| {
@@ -208,8 +210,8 @@ fn passed_on(place: &Place, material: &Material, slowness: f64) -> impl Iterator
     } else {
         flat
     };
-    let mirrored = |term, share, most| Passed {
-        term,
+    let mirrored = |lobe: usize, share, most| Passed {
+        lobe: lobe as u32,
         share,
         most: share * most,
         direction: reflected(d, normal),
@@ -217,19 +219,21 @@ fn passed_on(place: &Place, material: &Material, slowness: f64) -> impl Iterator
         slowness,
     };
     let mirror = |share| {
-        let most = material.mirror.as_ref()?.most();
-        Some(mirrored(Term::Mirror, share, most))
+        let (lobe, mirror) = material.bsdf.mirror()?;
+        Some(mirrored(lobe, share, mirror.reflectance.most()))
     };
-    let most = glass.map_or(0.0, |glass| glass.transmittance.most());
-    match at_boundary(normal) {
-        None => [mirror(1.0), None],
-        Some(Boundary::Total) => [Some(mirrored(Term::Refraction, 1.0, most)), None],
-        Some(Boundary::Passing {
+    let Some((boundary, (lobe, glass, _))) = at_boundary(normal).zip(glass) else {
+        return [mirror(1.0), None].into_iter().flatten();
+    };
+    let most = glass.reflectance.most();
+    match boundary {
+        Boundary::Total => [Some(mirrored(lobe, 1.0, most)), None],
+        Boundary::Passing {
             direction,
             reflected,
-        }) => {
+        } => {
             let through = Passed {
-                term: Term::Refraction,
+                lobe: lobe as u32,
                 share: 1.0 - reflected,
                 most: (1.0 - reflected) * most,
                 direction,
@@ -295,7 +299,7 @@ impl Tracer<'_> {
 mod tests {
     use super::*;
     use crate::relativity::Event;
-    use crate::scene::{Reflectance, Refraction, SurfacePoint};
+    use crate::scene::{Bsdf, Lobe, LobeKind, Reflectance, SurfacePoint};
     use crate::spectrum::Spectrum;
     use proptest::prelude::*;
     use std::sync::Arc;
@@ -322,12 +326,13 @@ mod tests {
             weight: 1.0,
             spectrum: Arc::new(Spectrum::Constant(1.0)),
         };
+        let lobe = |kind| Lobe {
+            kind,
+            reflectance: all.clone(),
+        };
+        let lobes = [LobeKind::Mirror, LobeKind::Refraction { ior }].map(lobe);
         Material {
-            mirror: Some(all.clone()),
-            refraction: Some(Refraction {
-                transmittance: all,
-                ior,
-            }),
+            bsdf: Bsdf::new(lobes.to_vec()),
             ..Material::default()
         }
     }

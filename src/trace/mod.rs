@@ -37,7 +37,7 @@ pub use ray::boost_directions;
 pub use sampler::{Samples, filter_offset};
 pub use spacetime::{Link, Spacetime};
 pub use stage::{BodyHit, RestRay, Stage};
-pub use tree::{Branch, Lit, Node, Root, Seen, ShadeTrees, Surface, Term};
+pub use tree::{Branch, DirectLight, Node, Root, Seen, ShadeTrees, Surface};
 
 /// Scratch memory of [`Tracer::trace`], to be kept from call to call.
 #[derive(Default)]
@@ -185,12 +185,12 @@ impl Tracer<'_> {
         doppler: f64,
         trees: &mut ShadeTrees,
     ) {
-        let first_lamp = trees.lit.len() as u32;
+        let first_lamp = trees.direct.len() as u32;
         let hit = nearest.hit;
         let number = self.scene.geometry.instances[hit.instance as usize].material;
         let material = &self.scene.materials[number as usize];
         if let (Some(place), true) = (place, material.takes_lamps()) {
-            direct::add_lamps(self, place, material, &mut trees.lit);
+            direct::add_lamps(self, place, material, trees);
         }
         trees.nodes.push(Node {
             branch,
@@ -200,7 +200,7 @@ impl Tracer<'_> {
                 s: nearest.s,
                 time: nearest.time,
                 hit,
-                lamps: trees.lit.len() as u32 - first_lamp,
+                lamps: trees.direct.len() as u32 - first_lamp,
                 first_lamp,
             }),
         });

@@ -15,7 +15,12 @@ pub struct ShadeTrees {
     /// What is seen, directly or by way of mirrors and glass.
     pub nodes: Vec<Node>,
     /// Lamps that light the surfaces among them.
-    pub lit: Vec<Lit>,
+    pub direct: Vec<DirectLight>,
+    /// Weights of lobes under those lamps: for each lamp one for each non-specular lobe of the
+    /// surface's material, in the order of the lobes; see [`Lobe::reflected`].
+    ///
+    /// [`Lobe::reflected`]: crate::scene::Lobe::reflected
+    pub weights: Vec<f64>,
 }
 
 impl ShadeTrees {
@@ -23,7 +28,8 @@ impl ShadeTrees {
     pub fn clear(&mut self) {
         self.roots.clear();
         self.nodes.clear();
-        self.lit.clear();
+        self.direct.clear();
+        self.weights.clear();
     }
 
     /// The nodes of one tree; none where a ray sees nothing.
@@ -34,8 +40,14 @@ impl ShadeTrees {
 
     /// The lamps on a surface.
     #[inline(always)]
-    pub fn lamps_on(&self, surface: &Surface) -> &[Lit] {
-        &self.lit[surface.first_lamp as usize..(surface.first_lamp + surface.lamps) as usize]
+    pub fn lamps_on(&self, surface: &Surface) -> &[DirectLight] {
+        &self.direct[surface.first_lamp as usize..(surface.first_lamp + surface.lamps) as usize]
+    }
+
+    /// The weights of the first `lobes` lobes of a surface's material under a lamp, m⁻².
+    #[inline(always)]
+    pub fn weights_of(&self, lamp: &DirectLight, lobes: usize) -> &[f64] {
+        &self.weights[lamp.first_weight as usize..][..lobes]
     }
 }
 
@@ -68,21 +80,13 @@ pub struct Node {
 pub struct Branch {
     /// That surface: position among the tree's own nodes.
     pub parent: u32,
-    /// The term of its material that passes the light on.
-    pub term: Term,
-    /// Share of the light that the term is given: Fresnel's, or 1.
+    /// The lobe of its material that passes the light on: position among the lobes. A refraction
+    /// also reflects, where reflection is total.
+    pub lobe: u32,
+    /// Share of the light that the lobe is given: Fresnel's, or 1.
     pub share: f64,
     /// D from this node to that surface.
     pub doppler: f64,
-}
-
-/// A term of a material that passes light on.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Term {
-    /// Ideal reflection.
-    Mirror,
-    /// Ideal refraction; also reflection where it is total.
-    Refraction,
 }
 
 /// What stands at the end of a ray.
@@ -107,20 +111,19 @@ pub struct Surface {
     pub hit: BodyHit,
     /// Its lamps: this many …
     pub lamps: u32,
-    /// … from this index of [`ShadeTrees::lit`] on.
+    /// … from this index of [`ShadeTrees::direct`] on.
     pub first_lamp: u32,
 }
 
-/// A lamp's light on a surface. The irradiance of the surface is D³·I(Dλ)/r² times a cosine; here
-/// stand the factors that do not depend on wavelength or on how much beaming is simulated.
+/// A lamp's light on a surface. The irradiance of the surface is D³·I(Dλ)/r² times a cosine; the
+/// weights of its lobes hold the factors that do not depend on wavelength or on how much beaming is
+/// simulated.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Lit {
+pub struct DirectLight {
     /// Index into the scene's lights.
     pub light: u32,
+    /// Index of the first lobe's weight into [`ShadeTrees::weights`].
+    pub first_weight: u32,
     /// D from the lamp to the surface.
     pub doppler: f64,
-    /// share · cos θ / (π r²), m⁻²: times ρ and the irradiance's spectrum gives radiance.
-    pub diffuse: f64,
-    /// share · cos θ · (n+8)/(8π) · (N·H)ⁿ / r².
-    pub highlight: f64,
 }

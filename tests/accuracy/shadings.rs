@@ -10,11 +10,13 @@ use restframe::color::spaces::D65_XYZ;
 use restframe::color::{delta_e_2000, lab_from_xyz};
 use restframe::frame::{Frame, Sensor};
 use restframe::image::compare::Comparison;
-use restframe::scene::{Curve, Library, Material, Reflectance, Scene, Thermal};
+use restframe::scene::{
+    Bsdf, Curve, Library, Lobe, LobeKind, Material, Reflectance, Scene, Thermal,
+};
 use restframe::shade::{Settings, ShadeScratch, Shader};
 use restframe::shot::{self, Accuracy, Preset, Shot, Spectra};
 use restframe::spectrum::{Beyond, Spectrum, planck};
-use restframe::trace::{BodyHit, Lit, Node, Root, Seen, ShadeTrees, Surface};
+use restframe::trace::{BodyHit, DirectLight, Node, Root, Seen, ShadeTrees, Surface};
 use std::sync::Arc;
 
 const SHADINGS: u64 = 1000;
@@ -43,6 +45,13 @@ spectrum = "D65"
 [camera]
 "#;
 
+fn diffuse(reflectance: Reflectance) -> Bsdf {
+    Bsdf::new(vec![Lobe {
+        kind: LobeKind::Diffuse,
+        reflectance,
+    }])
+}
+
 /// A surface under a lamp.
 pub(crate) struct Shading {
     material: Material,
@@ -60,7 +69,7 @@ impl Shading {
             spectrum: Arc::new(spectrum),
         };
         let mut material = Material {
-            diffuse: Some(reflectance(random.reflectance())),
+            bsdf: diffuse(reflectance(random.reflectance())),
             ..Material::default()
         };
         if random.below(4) == 0 {
@@ -107,9 +116,9 @@ impl Shading {
         let near = |spectrum: &Spectrum| peak(reach, &|nm| spectrum.at(nm));
         let far = reach + self.lamp_doppler.ln().abs();
         let mut sum = 0.0;
-        if let Some(diffuse) = &self.material.diffuse {
+        for lobe in self.material.bsdf.lobes() {
             let lamp = peak(far, &|nm| self.lamp.at(nm));
-            sum += near(&diffuse.spectrum) * lamp * self.lamp_doppler.powi(3);
+            sum += near(&lobe.reflectance.spectrum) * lamp * self.lamp_doppler.powi(3);
         }
         if let Some(emission) = &self.material.emission {
             sum += emission.weight * near(&emission.spectrum);
@@ -154,12 +163,12 @@ impl Shading {
                 doppler: self.doppler,
                 seen: Seen::Surface(surface),
             }],
-            lit: vec![Lit {
+            direct: vec![DirectLight {
                 light: 0,
+                first_weight: 0,
                 doppler: self.lamp_doppler,
-                diffuse: 1.0,
-                highlight: 0.0,
             }],
+            weights: vec![1.0],
         }
     }
 }
@@ -234,7 +243,7 @@ struct Found {
 /// One shading at numbers of wavelengths.
 fn found<const N: usize>(wall: &mut Wall, shading: &Shading, counts: [u32; N]) -> [Found; N] {
     let white = Material {
-        diffuse: Some(Reflectance {
+        bsdf: diffuse(Reflectance {
             weight: 1.0,
             spectrum: Arc::new(Spectrum::Constant(1.0)),
         }),

@@ -15,7 +15,8 @@ use glam::DVec3;
 use restframe::film::Film;
 use restframe::frame::Frame;
 use restframe::render::View;
-use restframe::trace::{Node, Root, Scratch, ShadeTrees, Stage, Term};
+use restframe::scene::LobeKind;
+use restframe::trace::{Branch, Node, Root, Scratch, Seen, ShadeTrees, Stage};
 
 /// Light and D of each pixel may differ by this share of themselves, eight roundings of the film's
 /// f32 (the greatest value of the film is 1e6 times the least and more, so it would hide all else).
@@ -222,11 +223,21 @@ fn totally_reflected(text: &str) -> usize {
     let mut trees = ShadeTrees::default();
     view.tracer()
         .trace(&directions, &mut Scratch::default(), &mut trees);
-    let total = |node: &Node| {
-        let branch = node.branch.as_ref();
-        branch.is_some_and(|branch| branch.term == Term::Refraction && branch.share == 1.0)
+    let lobe = |nodes: &[Node], branch: &Branch| match nodes[branch.parent as usize].seen {
+        Seen::Surface(surface) => {
+            let lobes = scene.materials[surface.material as usize].bsdf.lobes();
+            lobes[branch.lobe as usize].kind
+        }
+        Seen::Sky(_) => unreachable!("nothing is seen in the sky"),
     };
-    let seen = |root: &&Root| trees.nodes_of(**root).iter().any(total);
+    let total = |nodes: &[Node], branch: &Branch| {
+        matches!(lobe(nodes, branch), LobeKind::Refraction { .. }) && branch.share == 1.0
+    };
+    let seen = |root: &&Root| {
+        let nodes = trees.nodes_of(**root);
+        let mut branches = nodes.iter().filter_map(|node| node.branch.as_ref());
+        branches.any(|branch| total(nodes, branch))
+    };
     trees.roots.iter().filter(seen).count()
 }
 

@@ -6,7 +6,7 @@ use restframe::frame::Frame;
 use restframe::probe::{Probe, ProbeNode};
 use restframe::relativity::{Boost, Celerity};
 use restframe::render::View;
-use restframe::trace::{Scratch, Seen, ShadeTrees, Stage, Term};
+use restframe::trace::{Scratch, Seen, ShadeTrees, Stage};
 
 const EPSILON: f64 = f64::EPSILON;
 
@@ -202,8 +202,9 @@ cases! {
             let view = View::new(&Frame::new(shot, 1).unwrap(), &shot.effects, &scene, &stage);
             let mut trees = ShadeTrees::default();
             view.tracer().trace(&[direction], &mut Scratch::default(), &mut trees);
+            let glass = scene.materials[0].bsdf.refraction().unwrap().0 as u32;
             let next = trees.nodes[1..].iter().find_map(|node| match (node.branch, node.seen) {
-                (Some(branch), Seen::Surface(surface)) if branch.parent == 0 && branch.term == Term::Refraction => {
+                (Some(branch), Seen::Surface(surface)) if branch.parent == 0 && branch.lobe == glass => {
                     Some(surface.hit.triangle)
                 }
                 _ => None,

@@ -1,6 +1,6 @@
 //! A study with everything that a report can meet, in numbers as a real one has them.
 
-use restframe::study::findings::{
+use restframe::study::results::{
     EffectCost, Errors, Halving, Machine, Noise, PaperRow, Percentiles, PhaseTime, Point,
     Recommendation, Study, Sweep, Timing,
 };

@@ -1,4 +1,5 @@
-//! An EXR's blocks put together: rows developed as they come, values that are not finite counted.
+//! Assembly of an EXR's blocks: rows are developed as they arrive, and values that are not finite
+//! are counted.
 
 use super::fault::{Fault, exr_fault};
 use super::file::MOST_CHANNELS;
@@ -9,29 +10,29 @@ use ::exr::meta::attribute::{ChannelDescription, ChannelList, SampleType};
 use ::exr::meta::{BlockDescription, header::Header};
 use ::exr::prelude::f16;
 
-/// Pixels of 8 bits, and the channels with values that are not finite, each with how many.
+/// Pixels of 8 bits, and the channels with values that are not finite, with the number of these.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Decoded {
-    /// Three bytes a pixel, row by row from the top.
+    /// Three bytes per pixel, row by row from the top.
     pub rgb8: Vec<u8>,
     /// By name.
     pub not_finite: Vec<(String, u64)>,
 }
 
-/// An EXR's picture as its blocks come.
+/// An EXR's image while its blocks arrive.
 pub(super) struct Canvas {
     width: usize,
     channels: Vec<Channel>,
     encode: fn(f64) -> f64,
     rgb8: Vec<u8>,
-    /// Which rows have come.
+    /// Whether each row has arrived.
     seen: Vec<bool>,
 }
 
 struct Channel {
     name: String,
     sample_type: SampleType,
-    /// Red, green or blue, by index.
+    /// The displayed color of a channel, as index of red, green or blue; None for others.
     shown: Option<usize>,
     not_finite: u64,
 }
@@ -61,7 +62,7 @@ impl Canvas {
         })
     }
 
-    /// Takes whole rows, all channels of them.
+    /// Takes whole rows, with all of their channels.
     pub(super) fn take(
         &mut self,
         block: &UncompressedBlock,
@@ -126,7 +127,7 @@ impl Channel {
         }
     }
 
-    /// Counts a row's values that are not finite, and puts them where they are shown.
+    /// Counts the values of a row that are not finite, and stores those that are displayed.
     fn put(
         &mut self,
         values: impl Iterator<Item = ::exr::error::Result<f32>>,

@@ -1,33 +1,33 @@
-//! What is wrong with a file, in words.
+//! Faults of a file.
 
 use ::exr::error::Error as ExrError;
 use ::png::DecodingError;
 use std::io;
 
-/// What is wrong with a file. Messages continue "FILE: ".
+/// A fault of a file. Messages continue "FILE: ".
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum Fault {
-    /// It is not there.
+    /// The file does not exist.
     #[error("missing")]
     Missing,
-    /// It has no bytes.
+    /// The file has no bytes.
     #[error("empty: it has no bytes")]
     Empty,
-    /// It ends too early.
+    /// The file ends too early.
     #[error("truncated: it ends before the picture does")]
     Truncated,
-    /// What it holds is no picture of ours.
+    /// The content is not an image of ours.
     #[error("damaged: {0}")]
     Damaged(String),
-    /// Another size.
+    /// The image has another size.
     #[error("wrong size: {}, not {}", pixels(*found), pixels(*expected))]
     Size {
-        /// Pixels in a row, and rows.
+        /// Width and height, pixels.
         found: [usize; 2],
-        /// What they should be.
+        /// Expected width and height, pixels.
         expected: [usize; 2],
     },
-    /// The system cannot read it.
+    /// The system cannot read the file.
     #[error("unreadable: {0}")]
     Unreadable(String),
 }
@@ -48,7 +48,7 @@ pub(super) fn png_fault(error: DecodingError) -> Fault {
 
 pub(super) fn exr_fault(error: ExrError) -> Fault {
     let text = error.to_string();
-    // The decoder's words for an end of file.
+    // The decoder's words for an early end of file.
     if text.contains("reference to missing bytes") {
         return Fault::Truncated;
     }

@@ -1,24 +1,25 @@
-//! A file of a frame, opened and read to no more than such a frame can need.
+//! The file of a frame, opened and read up to the size that such a frame can need.
 
 use super::fault::{Fault, pixels};
 use std::fs::{self, File};
 use std::io::{self, Read};
 use std::path::Path;
 
-/// What a file may have beside its pixels, bytes: the shot's text is at most 4 MiB of it.
+/// Bytes that a file may have besides its pixels; the shot's text is at most 4 MiB of it.
 pub(in crate::image) const MOST_METADATA: u64 = 16 << 20;
 
-/// Channels at most: three colours and four layers.
+/// Largest number of channels: three colors and four layers.
 pub(super) const MOST_CHANNELS: usize = 7;
 
-/// Bytes a pixel at most: channels of 32 bits, and as much again for what does not compress.
+/// Largest number of bytes per pixel: channels of 32 bits, and as much again for data that do not
+/// compress.
 const MOST_PIXEL: u64 = 2 * 4 * MOST_CHANNELS as u64;
 
-/// Opens a regular file to be read, whoever put it there: a pipe would wait for a writer for ever,
-/// and a device never end.
+/// Opens a regular file for reading. Anything else is refused: a pipe would wait for a writer
+/// forever, and a device may never end.
 ///
 /// # Errors
-/// Of the system, and what is no regular file.
+/// Those of the system, and anything that is not a regular file.
 pub fn open(path: &Path) -> io::Result<File> {
     if !fs::metadata(path)?.is_file() {
         let why = "it is no regular file; move it away";
@@ -27,10 +28,10 @@ pub fn open(path: &Path) -> io::Result<File> {
     File::open(path)
 }
 
-/// The bytes of a file, unless it has more than an image of this size can need.
+/// The bytes of a file, unless there are more than an image of this size can need.
 ///
 /// # Errors
-/// A file that is missing, empty, too long or cannot be read.
+/// A file that is missing, empty, too long or unreadable.
 pub fn read_bytes(path: &Path, size: [u32; 2]) -> Result<Vec<u8>, Fault> {
     let most = u64::from(size[0]) * u64::from(size[1]) * MOST_PIXEL + MOST_METADATA;
     let unreadable = |error: io::Error| match error.kind() {

@@ -1,6 +1,6 @@
-//! A frame's file to pixels, read to its last byte, with all that can be wrong with it.
+//! Reading of a frame's file to pixels, to its last byte, with all its faults.
 //!
-//! The files may be anybody's: nothing is decoded whose size is not the one expected, so that
+//! Files may come from anyone: nothing is decoded unless its size is the expected one, so that
 //! memory is bounded by the shot's own image, and no more of a file is read than such an image can
 //! need.
 

@@ -1,4 +1,4 @@
-//! The bytes of a frame's file to pixels.
+//! Decoding of a frame's file to pixels.
 
 use super::canvas::{Canvas, Decoded};
 use super::fault::{Fault, check_size, exr_fault, png_fault};
@@ -6,10 +6,10 @@ use ::exr::block::reader::ChunksReader;
 use ::exr::math::Vec2;
 use std::io::Cursor;
 
-/// Decodes a PNG of 8-bit RGB, checksums and all.
+/// Decodes a PNG of 8-bit RGB, with its checksums.
 ///
 /// # Errors
-/// What is wrong with it.
+/// The fault of the file.
 pub fn png(bytes: &[u8], size: [u32; 2]) -> Result<Decoded, Fault> {
     let limits = ::png::Limits {
         // A row or two, and what zlib needs.
@@ -35,10 +35,10 @@ pub fn png(bytes: &[u8], size: [u32; 2]) -> Result<Decoded, Fault> {
 }
 
 /// Decodes an EXR as this program writes it: scan lines of one part, the channels R, G, B, and any
-/// number of others that are only looked through. `encode` is the display's transfer.
+/// number of others that are only checked. `encode` is the display's transfer.
 ///
 /// # Errors
-/// What is wrong with it.
+/// The fault of the file.
 pub fn exr(bytes: &[u8], size: [u32; 2], encode: fn(f64) -> f64) -> Result<Decoded, Fault> {
     let reader = ::exr::block::read(Cursor::new(bytes), true).map_err(exr_fault)?;
     let [header] = reader.headers() else {

@@ -1,8 +1,7 @@
-//! Numbers out of buffers, every range checked before a byte is touched.
+//! Numbers from buffers, with every range checked before a byte is read.
 //!
-//! An accessor without a buffer view is all zeros, but for its sparse values.
-//!
-//! Source: Khronos glTF 2.0 specification, section 3.6.2 (accessors, sparse ones included).
+//! An accessor without a buffer view is all zeros except for its sparse values. Source: Khronos
+//! glTF 2.0 specification, section 3.6.2 (accessors, including sparse ones).
 
 use super::extensions::unsupported;
 use super::source::Source;
@@ -12,16 +11,16 @@ use ::gltf::json::buffer::View;
 use ::gltf::json::validation::Checked;
 use ::gltf::json::{Index, validation::USize64};
 
-/// Accessor elements decoded for one file at most: shared accessors count each time.
+/// Number of accessor elements decoded for one file at most; shared accessors count each time.
 pub(super) const MAX_ELEMENTS: u64 = 1 << 27;
 
-/// Elements of an accessor of zeros at most, which cost the file no bytes.
+/// Number of elements of an all-zero accessor at most, since these cost the file no bytes.
 const MAX_ZEROS: u64 = 1 << 22;
 
-/// Bytes of one element at most: four numbers of 4.
+/// Size of one element at most: four numbers of 4 bytes.
 const MAX_BYTES: usize = 16;
 
-/// What an accessor's elements are.
+/// Layout of an accessor's elements.
 #[derive(Clone, Copy)]
 struct Layout {
     component: ComponentType,
@@ -35,7 +34,7 @@ impl Layout {
 }
 
 impl Source<'_> {
-    /// Vectors of N numbers, of one of the component types given. Integers are normalised.
+    /// Vectors of N numbers, of one of the given component types. Integers are normalized.
     pub(super) fn vectors<const N: usize>(
         &self,
         index: Index<Accessor>,
@@ -64,7 +63,7 @@ impl Source<'_> {
         self.elements(accessor, layout, &at, decode)
     }
 
-    /// Indices of vertices.
+    /// Vertex indices.
     pub(super) fn indices(
         &self,
         index: Index<Accessor>,
@@ -81,7 +80,7 @@ impl Source<'_> {
         self.elements(accessor, layout, &at, unsigned)
     }
 
-    /// How many elements an accessor has, most of which the file holds: zeros cost it no bytes, and
+    /// Number of elements of an accessor that the file really contains. Zeros cost it no bytes, and
     /// would be as many instances in one place.
     pub(super) fn written(&self, index: Index<Accessor>, from: &str) -> Result<u64, ModelError> {
         let (accessor, _, at) = self.accessor(index, from)?;
@@ -198,7 +197,7 @@ impl Source<'_> {
         at: &str,
     ) -> Result<impl Iterator<Item = &[u8]>, ModelError> {
         let bytes = self.view(view, at)?;
-        // A stride of 0 breaks a rule and means none, as in OpenGL.
+        // A stride of 0 violates a rule and means none, as in OpenGL.
         let stride = self.root.buffer_views[view.value()].byte_stride;
         let stride = stride.map(|s| s.0).filter(|&s| s > 0).unwrap_or(size);
         if stride < size {
@@ -252,7 +251,7 @@ impl Source<'_> {
             })
     }
 
-    /// Counts elements against the most that are decoded.
+    /// Counts elements against [`MAX_ELEMENTS`].
     pub(super) fn spend(&self, count: u64) -> Result<(), ModelError> {
         let left = self.elements_left.get().checked_sub(count);
         self.elements_left
@@ -281,7 +280,7 @@ fn unsigned(bytes: &[u8]) -> u32 {
         .fold(0, |value, &byte| value << 8 | u32::from(byte))
 }
 
-/// One component; integers are normalised (glTF 2.0, section 3.6.2.2).
+/// One component; integers are normalized (glTF 2.0, section 3.6.2.2).
 fn number(bytes: &[u8], component: ComponentType) -> f64 {
     let bits = unsigned(bytes);
     match component {

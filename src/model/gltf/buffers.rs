@@ -1,5 +1,5 @@
-//! The bytes of a file's buffers, each asked for when it is first used: the glb's own chunk, data
-//! URIs, files beside the model.
+//! The bytes of a file's buffers, each loaded on first use: the glb's own chunk, data URIs, files
+//! beside the model.
 
 use crate::model::ModelError;
 use crate::shot::ModelFiles;
@@ -15,7 +15,7 @@ pub(super) struct Buffers<'a> {
 }
 
 impl<'a> Buffers<'a> {
-    /// `count` buffers, none of which is loaded yet.
+    /// `count` buffers, none of them loaded yet.
     pub(super) fn new(count: usize, binary: Option<&'a [u8]>, files: &'a mut ModelFiles) -> Self {
         Self {
             binary,
@@ -24,7 +24,7 @@ impl<'a> Buffers<'a> {
         }
     }
 
-    /// The bytes of a buffer, cut to the length that the JSON gives it. The index is in range.
+    /// The bytes of a buffer, cut to the length in the JSON. The index is in range.
     pub(super) fn bytes(&self, index: usize, buffer: &Buffer) -> Result<&[u8], ModelError> {
         let cell = &self.loaded[index];
         match cell.get() {
@@ -63,7 +63,8 @@ impl<'a> Buffers<'a> {
     }
 }
 
-/// The bytes of a data URI, `data:[type][;base64],data` (RFC 2397), or of the file that it names.
+/// The bytes of a data URI, `data:[type][;base64],data` (RFC 2397), or of the file that a URI
+/// names.
 fn from_uri(uri: &str, files: &mut ModelFiles, at: &str) -> Result<Vec<u8>, ModelError> {
     const SCHEME: &str = "data:";
     let scheme = uri.get(..SCHEME.len());
@@ -89,7 +90,7 @@ fn from_uri(uri: &str, files: &mut ModelFiles, at: &str) -> Result<Vec<u8>, Mode
     if !is_base64 {
         return Ok(bytes);
     }
-    // Blanks and line breaks are no part of it (RFC 2045, section 6.8).
+    // Blanks and line breaks do not count (RFC 2045, section 6.8).
     let mut letters = bytes;
     letters.retain(|byte| !byte.is_ascii_whitespace());
     base64::decode(letters).map_err(|_| broken("that is not valid base64"))

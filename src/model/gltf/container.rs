@@ -19,7 +19,7 @@ pub(super) struct Container<'a> {
     pub(super) binary: Option<&'a [u8]>,
 }
 
-/// Takes a file apart; what does not begin as glb, and is not called so, is JSON.
+/// Splits a file into its chunks. A file that neither begins as glb nor has its extension is JSON.
 pub(super) fn split<'a>(bytes: &'a [u8], file: &Path) -> Result<Container<'a>, ModelError> {
     if bytes.starts_with(b"glTF") {
         return split_glb(bytes, file);

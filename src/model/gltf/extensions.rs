@@ -1,10 +1,10 @@
-//! Extensions a file needs: supported, harmless, or refused with the way out.
+//! Extensions that a file requires: supported, harmless, or refused with a remedy.
 
 use crate::model::{ModelError, Warning};
 use serde_json::Value;
 use std::path::Path;
 
-/// Extensions beside KHR_materials_* without which a file is read as well as with them.
+/// Extensions besides KHR_materials_* without which a file can be read as well as with them.
 const SUPPORTED: [&str; 6] = [
     "KHR_lights_punctual",
     "KHR_node_visibility",
@@ -14,7 +14,7 @@ const SUPPORTED: [&str; 6] = [
     "EXT_mesh_gpu_instancing",
 ];
 
-/// Extensions that are refused, and what to do.
+/// Extensions that are refused, with remedies.
 const REMEDIES: [(&str, &str); 7] = [
     (
         "KHR_draco_mesh_compression",
@@ -43,7 +43,7 @@ const REMEDIES: [(&str, &str); 7] = [
     ),
 ];
 
-/// Refuses the first extension that is required and not supported; warns of others in use.
+/// Refuses the first extension that is required and not supported; warns about others in use.
 pub(super) fn require(
     raw: &Value,
     file: &Path,

@@ -1,37 +1,37 @@
-//! Meshes on nodes that squash one direction to nothing, as a scale of 1 1 0 does: what lies in the
-//! plane that is left is seen.
+//! Meshes on nodes whose matrix flattens one direction, as a scale of 1 1 0 does: the remaining
+//! plane is shown.
 //!
-//! The matrix M of such a node has rank 2. With unit vectors n across its plane and k along the lost
-//! direction, cof M = a n kᵀ, a > 0 the area that it gives to a unit one. The mesh is flattened along
-//! k, and on flat meshes M + s n kᵀ, which can be inverted, does the same as M; its determinant s a
-//! has the sign that is chosen for s, and so the flattened mesh keeps its front.
+//! The matrix M of such a node has rank 2. With unit vectors n across its plane and k along the
+//! lost direction, cof M = a n kᵀ, where a > 0 is the area that a unit area gets. The mesh is
+//! flattened along k, and on flat meshes M + s n kᵀ, which is invertible, acts like M; its
+//! determinant s a has the sign chosen for s, so that the flattened mesh keeps its front.
 
 use super::source::Source;
 use crate::model::mesh::{RawMesh, normal};
 use crate::model::{Mesh, Model, ModelError, Warning};
 use ::glam::{DAffine3, DMat3, DVec3};
 
-/// A body thinner than this part of its second longest axis is flat; a triangle of which less than
-/// this part of its area is left has none.
+/// Relative thickness, to the second longest axis, below which a body is flat; and relative area
+/// below which a flattened triangle has none.
 const FLAT: f64 = 1e-12;
 
-/// Where a node stands.
+/// Placement of a node.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Pose {
-    /// The model's space from the node's.
+    /// Model space from node space.
     pub(super) world: DAffine3,
-    /// −1 where it is mirrored, which a matrix of rank 2 does not tell; else 1.
+    /// −1 if the node is mirrored, which a matrix of rank 2 does not show; else 1.
     pub(super) handed: f64,
 }
 
 impl Pose {
-    /// That of the model.
+    /// The pose of the model itself.
     pub(super) const ORIGIN: Self = Self {
         world: DAffine3::IDENTITY,
         handed: 1.0,
     };
 
-    /// A pose within this one.
+    /// The pose `inner` within this one.
     pub(super) fn then(self, inner: Self) -> Self {
         Self {
             world: self.world * inner.world,
@@ -39,7 +39,7 @@ impl Pose {
         }
     }
 
-    /// What it leaves of a body.
+    /// What the pose leaves of a body.
     pub(super) fn extent(&self) -> Extent {
         let axes = self.world.matrix3;
         let DMat3 {
@@ -62,7 +62,7 @@ impl Pose {
             let Some(across) = across.try_normalize().filter(|_| area > FLAT) else {
                 return Extent::Nothing;
             };
-            // Without zeros below zero, so that equal directions have equal bits.
+            // Adding zero removes negative zeros, so that equal directions have equal bits.
             let lost = (cofactors.transpose() * across).normalize_or_zero() + DVec3::ZERO;
             let depth = across * (self.handed * size * area);
             let outer = DMat3::from_cols(depth * lost.x, depth * lost.y, depth * lost.z);
@@ -80,21 +80,21 @@ impl Pose {
 /// What a pose leaves of a body.
 #[derive(Debug, Clone, Copy)]
 pub(super) enum Extent {
-    /// All of it.
+    /// All dimensions.
     Solid(DAffine3),
-    /// A flat thing.
+    /// Two dimensions.
     Flat {
-        /// Puts the flattened mesh where the node has it; invertible.
+        /// Model space from the space of the flattened mesh; invertible.
         world: DAffine3,
-        /// Unit vector along which the mesh is to be flattened.
+        /// Unit vector along which the mesh is flattened.
         lost: DVec3,
     },
-    /// A line, a point, or nothing that numbers can tell.
+    /// A line or a point, which cannot be seen.
     Nothing,
 }
 
 impl Source<'_> {
-    /// Adds mesh number `mesh` without its depth along `lost`, and gives its number; `None` where no
+    /// Adds mesh number `mesh` without its depth along `lost` and returns its number; None if no
     /// triangle of it has an area then.
     pub(super) fn flattened(
         &self,

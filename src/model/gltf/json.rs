@@ -1,4 +1,5 @@
-//! The JSON of a file: its version, the extensions it needs, and its shape in the crate's types.
+//! The JSON of a file: its version, its required extensions, and its structure in the crate's
+//! types.
 
 use super::extensions;
 use crate::model::{ModelError, Warning};
@@ -7,7 +8,7 @@ use ::gltf::json::Root;
 use serde_json::{Map, Value, json};
 use std::path::Path;
 
-/// What of a file is read by the crate's types; all else cannot cost the file.
+/// Sections of a file that are read by way of the crate's types; nothing else can make a file fail.
 const READ: [&str; 8] = [
     "accessors",
     "bufferViews",
@@ -19,7 +20,7 @@ const READ: [&str; 8] = [
     "scenes",
 ];
 
-/// The JSON in the crate's types and as it stands, extensions that are required looked at.
+/// The JSON in the crate's types and as it is, with required extensions checked.
 pub(super) fn parse(
     text: &[u8],
     file: &Path,
@@ -42,10 +43,10 @@ pub(super) fn parse(
     Ok((root, raw))
 }
 
-/// Refuses every version but 2.
+/// Refuses every version except 2.
 fn check_version(raw: &Value, file: &Path, warnings: &mut Vec<Warning>) -> Result<(), ModelError> {
     let asset = &raw["asset"];
-    // Before 2.0 there were objects where now there are lists.
+    // Before 2.0, objects were used in place of lists.
     let is_old = ["meshes", "nodes", "scenes"]
         .iter()
         .any(|key| raw[key].is_object());
@@ -88,12 +89,12 @@ fn check_version(raw: &Value, file: &Path, warnings: &mut Vec<Warning>) -> Resul
     }
 }
 
-/// What to do with a file of glTF 1.0.
+/// Remedy for a file of glTF 1.0.
 pub(super) const CONVERT: &str =
     "convert it to 2.0, for instance by `gltf-pipeline -i OLD.gltf -o NEW.glb`";
 const EXPORT: &str = "export it as glTF 2.0";
 
-/// Major and minor version, of a text or of a number.
+/// Major and minor version, from text or a number.
 fn version(value: &Value) -> Option<(u32, u32)> {
     let text = match value {
         Value::String(text) => text.clone(),
@@ -106,8 +107,8 @@ fn version(value: &Value) -> Option<(u32, u32)> {
     Some((major, minor))
 }
 
-/// What of the JSON is read in the crate's types: without extensions, which are read as they stand,
-/// and with the lists of nodes that scenes may leave out.
+/// The part of the JSON for the crate's types: without extensions, which are read directly, and
+/// with the lists of nodes that scenes may leave out.
 fn shown(raw: &Value) -> Value {
     let mut shown = json!({ "asset": { "version": "2.0" } });
     for key in READ {
@@ -141,7 +142,8 @@ fn plain(value: &Value) -> Value {
     }
 }
 
-/// What the crate says of JSON that is not of glTF's shape, with the first item that is not.
+/// The crate's message on JSON that does not have the structure of glTF, with the first item at
+/// fault.
 fn located(raw: &Value, error: &serde_json::Error) -> String {
     let items = READ.iter().flat_map(|&key| {
         let list = raw[key].as_array().into_iter().flatten();

@@ -1,4 +1,4 @@
-//! Lamps of KHR_lights_punctual, their numbers in f64 as written.
+//! Lamps of KHR_lights_punctual, with their numbers in f64.
 
 use super::source::{Source, name_of};
 use crate::model::{Lamp, LampKind, Model, ModelError, Warning};
@@ -7,7 +7,7 @@ use serde_json::Value;
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
 
 impl Source<'_> {
-    /// Reads the lamp of a node that stands at `world`.
+    /// Reads the lamp of a node with the transform `world`.
     pub(super) fn lamp(
         &self,
         light: u64,
@@ -72,7 +72,7 @@ impl Source<'_> {
         }
     }
 
-    /// A number from 0 to `most`, with a little room for rounding above.
+    /// A number from 0 to `most`, with some room for rounding above.
     fn amount(
         &self,
         from: &Value,
@@ -110,7 +110,7 @@ impl Source<'_> {
     }
 }
 
-/// The pose without its scale: z and x kept in direction, y at right angles to both. `None` where
+/// The transform without its scale: directions of z and x kept, y at right angles to both. None if
 /// a lamp that needs a direction has none.
 fn unscaled(world: &DAffine3, kind: LampKind) -> Option<DAffine3> {
     let matrix = world.matrix3;

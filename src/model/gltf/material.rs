@@ -1,7 +1,7 @@
-//! Materials: base color and emission factors; all else that shows is a warning.
+//! Materials: base color and emission factors; everything else that would be visible is a warning.
 //!
-//! An emission of 1 is 1 cd/m² (KHR_materials_emissive_strength), but in Blender's files radiance as
-//! it stands. Materials that no mesh in the picture uses give no warnings.
+//! An emission of 1 is 1 cd/m² (KHR_materials_emissive_strength), but in files by Blender radiance
+//! as it is. Materials that no mesh in the image uses give no warnings.
 
 use super::source::{Source, name_of};
 use crate::model::{LUMENS_PER_WATT, Model, ModelError, ModelMaterial, Warning};
@@ -10,10 +10,11 @@ use ::gltf::json::material::AlphaMode;
 use ::gltf::json::validation::Checked;
 use serde_json::Value;
 
-/// What `asset.generator` says of Blender's exporter, perhaps after the name of an add-on.
+/// The value of `asset.generator` in files by Blender's exporter, perhaps after the name of an
+/// add-on.
 const BLENDER: &str = "Khronos glTF Blender I/O";
 
-/// What a picture lacks for want of an extension.
+/// The effects that an image lacks without an extension.
 const EFFECTS: [(&str, &str); 11] = [
     ("transmission", "it is opaque, in its base color"),
     ("volume", "nothing is absorbed within it"),
@@ -61,7 +62,7 @@ impl Source<'_> {
         Ok(())
     }
 
-    /// Warns of what a material that is in the picture lacks.
+    /// Warns of the effects that a material in the image lacks.
     pub(super) fn warn_of_material(&self, index: usize, model: &mut Model) {
         let (Some(material), Some(plain)) =
             (self.root.materials.get(index), model.materials.get(index))
@@ -102,7 +103,7 @@ impl Source<'_> {
         }
     }
 
-    /// Whether the material has the extension, and not merely with a factor of 0.
+    /// Whether the material has the extension with an effect, not merely with a factor of 0.
     fn shows(&self, index: usize, short: &str) -> bool {
         let value = self.extension(index, short);
         let factor = value.get(format!("{short}Factor")).and_then(Value::as_f64);

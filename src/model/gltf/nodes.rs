@@ -1,8 +1,8 @@
-//! The node tree: where every mesh, instance and lamp stands.
+//! The node tree: placement of every mesh, instance and lamp.
 //!
-//! Walked with a stack of its own, so that depth costs no call stack. The file shows its default
-//! scene; without one the first that has nodes; without scenes every node without a parent. Nodes
-//! that KHR_node_visibility hides are left out with all below them, lamps as well.
+//! The walk has a stack of its own, so that depth costs no call stack. The file shows its default
+//! scene; without one, the first scene that has nodes; without scenes, every node without a parent.
+//! Nodes hidden by KHR_node_visibility are left out with everything below them, including lamps.
 
 use super::flat::{Extent, Pose};
 use super::source::{Source, name_of};
@@ -14,24 +14,24 @@ use ::gltf::json::accessor::{Accessor, ComponentType};
 use serde_json::Value;
 use std::collections::HashMap;
 
-/// Instances of meshes in one file at most.
+/// Number of mesh instances that one file may have.
 const MAX_INSTANCES: u64 = 10_000_000;
 
-/// Least departure from 0 0 0 1 by which the last row of a matrix is more than a rounding of it.
+/// Largest departure of the last row of a matrix from 0 0 0 1 that counts as rounding.
 const NOT_AFFINE: f64 = 1e-5;
 
-/// Meshes of the file that have become meshes of ours.
+/// Meshes of the file that have become meshes of the model.
 struct Made {
-    /// By the file's index, the indices of ours.
+    /// For each mesh of the file, its indices in the model.
     whole: Vec<Option<Vec<usize>>>,
-    /// Ours by the index of the whole one and the bits of the direction in which it is flattened;
-    /// `None` where nothing is left.
+    /// For each flattened mesh, by the index of the original and the bits of the direction of
+    /// flattening, its index in the model; None if nothing is left.
     flat: HashMap<(usize, [u64; 3]), Option<usize>>,
-    /// Instances by EXT_mesh_gpu_instancing, those that are squashed to nothing included.
+    /// Number of instances by EXT_mesh_gpu_instancing, including those scaled to a line or a point.
     instances: u64,
 }
 
-/// Puts every instance and lamp of the scene into the model.
+/// Adds every instance and lamp of the scene to the model.
 pub(super) fn place(source: &Source<'_>, model: &mut Model) -> Result<(), ModelError> {
     let parentless = source.parentless_nodes()?;
     let mut stack = Vec::new();
@@ -118,7 +118,7 @@ impl Source<'_> {
         Ok(())
     }
 
-    /// Puts an instance there, and tells whether anything of it is seen.
+    /// Adds an instance. Returns whether any of it is visible.
     fn stand(
         &self,
         parts: &[usize],
@@ -165,7 +165,7 @@ impl Source<'_> {
         })
     }
 
-    /// The node's own transforms by EXT_mesh_gpu_instancing; one that does nothing without it.
+    /// The node's transforms by EXT_mesh_gpu_instancing; the identity without it.
     fn instances(
         &self,
         attributes: &Value,
@@ -265,7 +265,7 @@ impl Source<'_> {
         })
     }
 
-    /// Nodes that are nobody's child, if all nodes form trees.
+    /// Nodes without a parent, if all nodes form trees.
     fn parentless_nodes(&self) -> Result<Vec<usize>, ModelError> {
         let nodes = &self.root.nodes;
         let mut has_parent = vec![false; nodes.len()];
@@ -279,7 +279,7 @@ impl Source<'_> {
             }
         }
         let roots: Vec<usize> = (0..nodes.len()).filter(|&i| !has_parent[i]).collect();
-        // With one parent each, what no root leads to goes round in a circle.
+        // Each node has one parent, so those that no root leads to form a circle.
         let mut is_reached = vec![false; nodes.len()];
         let mut stack = roots.clone();
         while let Some(index) = stack.pop() {
@@ -298,7 +298,7 @@ impl Source<'_> {
         }
     }
 
-    /// The scene that is shown, if there is any.
+    /// The index of the scene that is shown, if there is one.
     pub(super) fn shown_scene(&self) -> Option<usize> {
         let scenes = &self.root.scenes;
         let with_nodes = || scenes.iter().position(|scene| !scene.nodes.is_empty());

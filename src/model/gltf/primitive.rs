@@ -1,4 +1,4 @@
-//! Primitives of a glTF mesh: each one mesh of ours.
+//! Primitives of a glTF mesh. Each becomes one mesh of the model.
 
 use super::extensions::unsupported;
 use super::source::{Source, name_of};
@@ -11,7 +11,7 @@ use ::gltf::json::mesh::{Mode, Primitive, Semantic};
 use ::gltf::json::validation::Checked;
 
 impl Source<'_> {
-    /// Reads one mesh of the file; gives the indices of the meshes it has become.
+    /// Reads one mesh of the file and returns the indices of the meshes that it has become.
     pub(super) fn mesh(&self, index: usize, model: &mut Model) -> Result<Vec<usize>, ModelError> {
         let Some(mesh) = self.root.meshes.get(index) else {
             return Ok(Vec::new());
@@ -32,8 +32,8 @@ impl Source<'_> {
         Ok(made)
     }
 
-    /// Refuses a primitive that is there in compressed form alone: its accessors without data would
-    /// be zeros.
+    /// Refuses a primitive that exists in compressed form only: its accessors without data would be
+    /// zeros.
     fn check_compression(
         &self,
         mesh: usize,
@@ -137,8 +137,8 @@ fn attribute(primitive: &Primitive, wanted: &Semantic) -> Option<Index<Accessor>
         })
 }
 
-/// The triangles of a list, strip or fan (glTF 2.0, section 3.7.2.1): every other one of a strip is
-/// turned so that all keep the winding of the first.
+/// The triangles of a list, strip or fan (glTF 2.0, section 3.7.2.1): every second one of a strip
+/// is turned so that all keep the winding of the first.
 fn assemble(mode: Mode, corners: &[u32]) -> Vec<[u32; 3]> {
     match mode {
         Mode::TriangleStrip => corners

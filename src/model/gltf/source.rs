@@ -1,4 +1,4 @@
-//! A glTF file taken apart.
+//! A glTF file split into its parts.
 
 use super::buffers::Buffers;
 use crate::model::ModelError;
@@ -7,18 +7,18 @@ use serde_json::Value;
 use std::cell::Cell;
 use std::path::PathBuf;
 
-/// A glTF file taken apart, nothing in it checked but its shape.
+/// A glTF file split into its parts; only its structure has been checked.
 pub(super) struct Source<'a> {
     pub(super) file: PathBuf,
     pub(super) root: Root,
-    /// The same JSON, for what `root` lacks or rounds.
+    /// The same JSON, for values that `root` lacks or rounds.
     pub(super) raw: Value,
     pub(super) buffers: Buffers<'a>,
     pub(super) elements_left: Cell<u64>,
 }
 
 impl Source<'_> {
-    /// An item by its index, or the error that says who asked for it.
+    /// An item by its index, or the error that names the item that refers to it.
     pub(super) fn item<'a, T>(
         &self,
         list: &'a [T],
@@ -53,7 +53,7 @@ impl Source<'_> {
     }
 }
 
-/// An item's name as messages give it: its own, or its kind and index.
+/// An item's name for messages: its own, or its kind and index.
 pub(super) fn name_of(name: Option<&str>, kind: &str, index: usize) -> String {
     match name {
         Some(name) if !name.is_empty() => name.to_owned(),

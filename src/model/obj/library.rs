@@ -1,8 +1,8 @@
-//! MTL: the color, the emission and the name of materials; all else of them is a warning.
+//! MTL: color, emission and name of materials; everything else in them is a warning.
 //!
-//! `Ke` is color times strength: radiance as it stands where the library's head says that Blender
-//! wrote it; elsewhere 1 is 1 cd/m². A material with a picture (`map_Kd`) has no `Kd` line in
-//! Blender's files and is drawn white. Surfaces of OBJ are seen from both sides.
+//! `Ke` is color times strength: radiance as it is if the head of the library names Blender as its
+//! author; otherwise 1 is 1 cd/m². A material with an image (`map_Kd`) has no `Kd` line in
+//! Blender's files and is drawn white. Surfaces of OBJ are visible from both sides.
 
 use super::number::numbers;
 use crate::model::{LUMENS_PER_WATT, ModelError, ModelMaterial, Warning};
@@ -13,14 +13,14 @@ use indexmap::{IndexMap, IndexSet};
 use std::collections::HashMap;
 use std::path::Path;
 
-/// A material as its library has it, and the luminance of an emission of 1 there, cd/m².
+/// A material of a library, and the luminance of an emission of 1 there, cd/m².
 type Defined = (tobj::Material, f64);
 
-/// White, where nothing says otherwise.
+/// White, the default.
 const WHITE: [f64; 3] = [1.0; 3];
 
-/// The materials that faces use, white where no library defines them, and which of them each of
-/// `used` is: a name may have a comment behind it.
+/// The materials that faces use, white if no library defines them, and for each name in `used` the
+/// index of its material: a name may have a comment behind it.
 pub(super) fn read(
     libraries: &IndexSet<String>,
     used: &IndexSet<String>,
@@ -30,7 +30,8 @@ pub(super) fn read(
     let mut defined = IndexMap::new();
     for line in libraries {
         for (name, opened) in open(line, files, warnings)? {
-            // A library goes before those named after it; of its own materials the last holds.
+            // A library takes precedence over those named after it; within a library the last
+            // material of a name holds.
             for (material, values) in materials(&name, opened, warnings)? {
                 defined.entry(material).or_insert(values);
             }
@@ -58,7 +59,7 @@ pub(super) fn read(
     Ok((made.into_values().collect(), of_used))
 }
 
-/// What is drawn of a material.
+/// The drawn part of a material.
 fn plain(name: &str, defined: Option<&Defined>, warnings: &mut Vec<Warning>) -> ModelMaterial {
     let name = name.to_owned();
     let material = defined.map(|(material, _)| material);
@@ -120,7 +121,7 @@ fn materials(
     Ok(defined.collect())
 }
 
-/// Luminance of a `Ke` of 1, cd/m²: by the comments that a library begins with.
+/// Luminance of a `Ke` of 1, cd/m², from the comments at the beginning of a library.
 fn emissive_unit(text: &str) -> f64 {
     let head = text.trim_start_matches('\u{feff}').lines().map(str::trim);
     let mut head = head.take_while(|line| line.is_empty() || line.starts_with('#'));
@@ -131,7 +132,7 @@ fn emissive_unit(text: &str) -> f64 {
     }
 }
 
-/// The lines that are read, each of the form that tobj expects.
+/// The lines that are read, each in the form that tobj expects.
 fn check(bytes: &[u8], file: &Path, warnings: &mut Vec<Warning>) -> Result<String, ModelError> {
     if is_utf16(bytes) {
         let file = file.to_owned();
@@ -169,14 +170,15 @@ fn check(bytes: &[u8], file: &Path, warnings: &mut Vec<Warning>) -> Result<Strin
     Ok(out)
 }
 
-/// What tobj is to read behind a keyword, `None` where the line is not read, or what was expected.
+/// The text for tobj behind a keyword; None if the line is not read. The error is what was
+/// expected.
 fn value(keyword: &str, rest: &str, bare: &str) -> Result<Option<String>, &'static str> {
     let values = || -> Option<Vec<f64>> {
         let values = numbers(keyword, rest)?.into_iter();
         Some(values.map(|(_, value)| value).collect())
     };
     Ok(match keyword {
-        // A comment may be part of the name: who uses it knows.
+        // A comment may be part of the name; only its users show.
         "newmtl" => Some(rest.to_owned()),
         "Kd" | "Ke" => match values().as_deref() {
             Some([r, g, b, ..]) => Some(format!("{r} {g} {b}")),

@@ -1,8 +1,8 @@
-//! Wavefront OBJ: one mesh for each object or group and material, polygons cut into triangles.
+//! Wavefront OBJ: one mesh for each object or group and material, with polygons cut into triangles.
 //!
-//! The text is checked line by line and reduced to what is read, so that mistakes carry their line
-//! and tobj meets nothing that it would misread or panic at (names are numbers to it); tobj makes the meshes. Smoothing
-//! groups are not interpreted: without `vn` lines a mesh is flat.
+//! The text is checked line by line and reduced to what is read, so that errors have line numbers
+//! and tobj gets nothing that it would misread or panic at (names are replaced by numbers); tobj
+//! makes the meshes. Smoothing groups are ignored: without `vn` lines a mesh is flat.
 
 mod library;
 mod number;

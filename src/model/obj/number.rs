@@ -1,8 +1,8 @@
-//! Numbers of OBJ and MTL files, with the spellings that programs have for what is none.
+//! Numbers of OBJ and MTL files, with the spellings of NaN and infinity that programs use.
 
 use crate::shot::before_comment;
 
-/// The words between a keyword and a comment, each with its value; `None` where one is no number.
+/// The words between a keyword and a comment, each with its value; None if one is not a number.
 pub(super) fn numbers<'a>(keyword: &str, rest: &'a str) -> Option<Vec<(&'a str, f64)>> {
     before_comment(keyword, rest)
         .split_whitespace()

@@ -10,7 +10,7 @@ use ::glam::{DAffine3, DVec3};
 use indexmap::{IndexMap, IndexSet};
 use tobj::LoadOptions;
 
-/// Reads the text of an OBJ file and the material libraries it names.
+/// Reads the text of an OBJ file and the material libraries that it names.
 pub(in crate::model) fn read(bytes: Vec<u8>, files: &mut ModelFiles) -> Result<Model, ModelError> {
     let scan = scan::scan(&bytes, files)?;
     drop(bytes);

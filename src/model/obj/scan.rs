@@ -1,5 +1,5 @@
-//! The lines of an OBJ file, each checked, and the text reduced to positions, normals and faces, and
-//! to objects and materials by number.
+//! The lines of an OBJ file, each checked, and the text reduced to positions, normals and faces,
+//! with numbers in place of names.
 
 use super::number::numbers;
 use crate::model::mesh::is_in_range;
@@ -13,41 +13,41 @@ use indexmap::IndexSet;
 use std::fmt::Write;
 use std::path::PathBuf;
 
-/// Longest part of a line that a message repeats.
+/// Number of characters of a line that a message repeats at most.
 const SHOWN: usize = 60;
 
-/// What the lines hold.
+/// Result of scanning the lines.
 #[derive(Debug, Default)]
 pub(super) struct Scan {
-    /// The text that tobj reads.
+    /// The reduced text for tobj.
     pub(super) text: String,
     /// Material libraries, as `mtllib` lines name them.
     pub(super) libraries: IndexSet<String>,
-    /// Materials that faces use, as `usemtl` lines name them: what `text` has is their numbers.
+    /// Materials that faces use, as `usemtl` lines name them; `text` has their numbers.
     pub(super) materials: IndexSet<String>,
-    /// Names of objects and groups, the first for what has none: `text` has their numbers.
+    /// Names of objects and groups, the first for those without a name; `text` has their numbers.
     pub(super) objects: IndexSet<String>,
-    /// What is left out.
+    /// Content that is left out.
     pub(super) warnings: Vec<Warning>,
-    /// Index in `objects` of the one whose lines are read.
+    /// Index in `objects` of the current object.
     object: usize,
     has_colors: bool,
     has_extra_numbers: bool,
-    /// Faces of fewer than three corners, and the line of the first.
+    /// Number of faces of fewer than three corners, and the line of the first.
     few_corners: (usize, usize),
-    /// How many there are of each of [`KINDS`].
+    /// Number of each of [`KINDS`] so far.
     counts: [i64; 3],
     asked: [Asked; 3],
 }
 
-/// What faces ask for of one kind.
+/// Indices of one kind that faces refer to.
 #[derive(Debug, Clone, Copy, Default)]
 struct Asked {
-    /// Line of the first that does, 0 where none does.
+    /// Line of the first; 0 if there is none.
     first: usize,
     /// The greatest index and its line: a face may come before its vertices.
     greatest: (i64, usize),
-    /// The first index that lies before all that stood there: line, index, how many stood there.
+    /// The first index before the first item: line, index, number of items at that point.
     too_low: Option<(usize, i64, i64)>,
 }
 
@@ -85,7 +85,7 @@ pub(super) fn scan(bytes: &[u8], files: &ModelFiles) -> Result<Scan, ModelError>
     Ok(scan)
 }
 
-/// A mistake in a line, its place not yet named.
+/// An error in a line, without its place.
 enum Fault {
     Expected(&'static str),
     Corners(u64),
@@ -213,7 +213,7 @@ impl Scan {
         }
     }
 
-    /// The indices of one corner from 1, 0 where there is none.
+    /// The indices of one corner from 1; 0 if missing.
     fn corner(&mut self, word: &str, number: usize) -> Result<[i64; 3], Fault> {
         const EXPECTED: Fault = Fault::Expected("corners such as 1, 1/2, 1//3 or 1/2/3");
         let mut indices = [0; 3];
@@ -245,8 +245,8 @@ impl Scan {
         Ok(indices)
     }
 
-    /// Refuses indices of what is not there, unless the shape does not need it: coordinates are not
-    /// read, and a mesh without normals is flat.
+    /// Refuses indices of items that do not exist, unless the shape does not need them: texture
+    /// coordinates are not read, and a mesh without normals is flat.
     fn check_asked(&mut self, files: &ModelFiles) -> Result<(), ModelError> {
         for (kind, asked) in self.asked.into_iter().enumerate() {
             let (what, count) = (KINDS[kind], self.counts[kind]);
@@ -281,12 +281,12 @@ impl Scan {
         Ok(())
     }
 
-    /// The object whose lines are read, for messages.
+    /// The current object, for messages.
     fn mesh(&self) -> String {
         called(&self.objects[self.object])
     }
 
-    /// Writes numbers for tobj, which does not know all spellings of what is none.
+    /// Writes numbers for tobj, which does not know all spellings of NaN and infinity.
     fn keep(&mut self, keyword: &str, values: &[(&str, f64)]) {
         self.text.push_str(keyword);
         for (word, value) in values {
@@ -304,7 +304,7 @@ impl Scan {
     }
 }
 
-/// What the three parts of a corner refer to.
+/// The kinds of items that the three parts of a corner refer to.
 const KINDS: [&str; 3] = ["position", "texture coordinate", "normal"];
 
 /// An object or group, for messages.

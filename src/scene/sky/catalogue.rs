@@ -1,13 +1,13 @@
-//! Catalogues of stars, as tables in text.
+//! Star catalogs, as tables in text.
 
 use crate::shot::{MOST_STARS, STAR_KELVIN, STAR_MAGNITUDE};
 use crate::spectrum::csv::Table;
 use glam::DVec3;
 
-/// A star as a catalogue has it.
+/// A star of a catalog.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Star {
-    /// Where it is: a unit vector.
+    /// Direction to the star: a unit vector.
     pub direction: DVec3,
     /// Temperature, K.
     pub temperature_k: f64,
@@ -15,33 +15,33 @@ pub struct Star {
     pub magnitude: f64,
 }
 
-/// Why a catalogue is none. Lines are counted from 1.
+/// Reason why a catalog cannot be used. Lines are counted from 1.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum CatalogueError {
-    /// No star is in it.
+    /// There is no star.
     #[error("there is no star in it: expected rows of azimuth, elevation, temperature, magnitude")]
     NoStars,
-    /// More than [`MOST_STARS`].
+    /// There are more than [`MOST_STARS`].
     #[error("there are more than {MOST_STARS} stars")]
     TooMany,
-    /// A row has not four fields.
+    /// A row does not have four fields.
     #[error(
         "line {line}: expected four columns, azimuth and elevation in degrees, temperature in K, visual magnitude; found {found}"
     )]
     Columns {
-        /// Which line.
+        /// Line number.
         line: usize,
-        /// How many fields there are.
+        /// Number of fields.
         found: usize,
     },
     /// A field is not a number, or not in its range.
     #[error("line {line}: the {what} is `{found}`, expected a number from {from} to {to}")]
     Value {
-        /// Which line.
+        /// Line number.
         line: usize,
-        /// Which column.
+        /// The column.
         what: &'static str,
-        /// What stands there.
+        /// The text there.
         found: String,
         /// Least value.
         from: f64,
@@ -51,7 +51,7 @@ pub enum CatalogueError {
 }
 
 impl Star {
-    /// Reads a catalogue: a [`Table`] of azimuth (degrees, 0 is −z, positive to the right), elevation
+    /// Reads a catalog: a [`Table`] of azimuth (degrees, 0 is −z, positive to the right), elevation
     /// (degrees), temperature (K) and visual magnitude.
     ///
     /// # Errors

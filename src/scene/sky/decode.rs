@@ -1,7 +1,7 @@
-//! Files of sky images: Radiance HDR, OpenEXR, PNG, known by their first bytes.
+//! Decoding of sky images: Radiance HDR, OpenEXR, PNG, recognized by their first bytes.
 //!
-//! HDR and EXR hold linear light, of Rec. 709 where they do not say of what else. PNG is taken as
-//! sRGB, of 8 or 16 bits, grey or palette too. Alpha is left out.
+//! HDR and EXR hold linear light, of Rec. 709 unless they state other primaries. PNG is taken as
+//! sRGB, of 8 or 16 bits, also gray or with a palette. Alpha is ignored.
 
 use super::file::{LARGEST_FILE, Pixels, SkyImageError, check_size};
 use super::image::{MOST_PIXELS, SkyImage, make_finite};
@@ -15,7 +15,7 @@ use std::path::Path;
 
 impl Pixels {
     fn into_sky(mut self) -> SkyImage {
-        // Conversion mixes the components of a texel: one that is infinite would spoil the others.
+        // Conversion mixes the components of a texel, so an infinite one would affect the others.
         let mut strange = 0;
         let convert = |primaries: Primaries| {
             strange = make_finite(&mut self.texels);
@@ -42,10 +42,10 @@ impl SkyImage {
         Self::decode(&bytes)
     }
 
-    /// An image from the bytes of a file. Its size is looked at before its pixels.
+    /// Decodes the bytes of a file. The size is checked before pixels are read.
     ///
     /// # Errors
-    /// What is wrong with the file.
+    /// The fault of the file.
     pub fn decode(bytes: &[u8]) -> Result<Self, SkyImageError> {
         let pixels = match bytes {
             [] => Err(SkyImageError::Empty),
@@ -58,7 +58,7 @@ impl SkyImage {
     }
 }
 
-/// An image of whole numbers in sRGB.
+/// An image of integers in sRGB.
 fn png(bytes: &[u8]) -> Result<Pixels, SkyImageError> {
     let mut limits = Limits::default();
     limits.max_alloc = Some(8 * MOST_PIXELS);

@@ -1,20 +1,20 @@
 //! An image of the whole sky, looked up by direction.
 //!
 //! Equirectangular: rows are equal steps of elevation from +90° to −90°, columns equal steps of
-//! azimuth from −180° to 180°, a texel's colour belongs to its centre. Between centres colours are
-//! mixed linearly in both angles, across the seam too; beyond the centres of the first and last
-//! row, towards the pole, with the mean of that row, which is the pole's colour. So what is looked
-//! up is continuous on the sphere. There is no smoothing beyond that: where texels are much
-//! smaller than pixels, as ahead of a fast camera, it is the pixel's samples that average them.
+//! azimuth from −180° to 180°, and the color of a texel belongs to its center. Between centers,
+//! colors are interpolated linearly in both angles, also across the seam; beyond the centers of the
+//! first and last row, toward the pole, with the mean of that row as color of the pole. So the
+//! lookup is continuous on the sphere. There is no further smoothing: where texels are much smaller
+//! than pixels, as ahead of a fast camera, the pixel's samples average them.
 
 use super::SkyWarning;
 use glam::DVec3;
 use std::f64::consts::{PI, TAU};
 
-/// Most columns and rows.
+/// Largest number of columns and rows.
 pub const MOST_SIDES: [u32; 2] = [32768, 16384];
 
-/// Most pixels: 2²⁷, 1.5 GiB of colors.
+/// Largest number of pixels: 2²⁷, 1.5 GiB of colors.
 pub const MOST_PIXELS: u64 = 1 << 27;
 
 /// An image of the whole sky: linear Rec. 709, every component finite and at least 0.
@@ -22,22 +22,21 @@ pub const MOST_PIXELS: u64 = 1 << 27;
 pub struct SkyImage {
     width: usize,
     height: usize,
-    /// By rows from the top.
+    /// Texels by rows from the top.
     texels: Vec<[f32; 3]>,
-    /// Colours of +y and −y.
+    /// Colors of +y and −y.
     poles: [[f32; 3]; 2],
     warnings: Vec<SkyWarning>,
 }
 
 impl SkyImage {
-    /// An image of `width` ≥ 1 columns from texels by rows from the top, at least one row. What is
-    /// negative or no number becomes 0, what is infinite the greatest finite component there is,
-    /// with a warning.
+    /// An image of `width` ≥ 1 columns from texels by rows from the top, at least one row. Negative
+    /// components and NaN become 0, infinite ones the greatest finite component, with a warning.
     pub fn new(width: usize, texels: Vec<[f32; 3]>) -> Self {
         Self::with_strange(width, texels, 0)
     }
 
-    /// The same, where so many components have been brought into range already.
+    /// The same, after `strange` components have been brought into range already.
     pub(super) fn with_strange(width: usize, mut texels: Vec<[f32; 3]>, strange: usize) -> Self {
         let height = texels.len() / width;
         let count = strange + clamp(&mut texels);
@@ -59,13 +58,13 @@ impl SkyImage {
         }
     }
 
-    /// With what else there is to say of its file.
+    /// The image with further warnings about its file.
     pub(super) fn with_warnings(mut self, warnings: impl IntoIterator<Item = SkyWarning>) -> Self {
         self.warnings.extend(warnings);
         self
     }
 
-    /// What of its file it does not show as it stands there.
+    /// Warnings about the file.
     pub fn warnings(&self) -> &[SkyWarning] {
         &self.warnings
     }
@@ -84,7 +83,7 @@ impl SkyImage {
         let below = from_top.floor();
         let [upper, lower] = [below, below + 1.0].map(|row| self.in_row(row, column));
         let last = self.height as f64 - 1.0;
-        // From the pole to the centre of its row it is only half a row.
+        // From the pole to the center of its row it is only half a row.
         let part = if below < 0.0 {
             2.0 * from_top + 1.0
         } else if below >= last {
@@ -95,7 +94,7 @@ impl SkyImage {
         mix(upper, lower, part.clamp(0.0, 1.0))
     }
 
-    /// The colour at a column of any value in a row, the pole's beyond the first and last.
+    /// The color at any column of a row; beyond the first and last row, that of the pole.
     fn in_row(&self, row: f64, column: f64) -> [f64; 3] {
         if row < 0.0 {
             return self.poles[0].map(f64::from);
@@ -122,8 +121,8 @@ fn greatest(texels: &[[f32; 3]]) -> f32 {
     finite.copied().fold(0.0, f32::max)
 }
 
-/// Makes what is no number 0, what is infinite the greatest finite component with its sign; returns
-/// how many there were, without those that are negative still.
+/// Replaces NaN by 0 and infinite components by the greatest finite one with their sign. Returns
+/// their number, without those that are still negative.
 pub(super) fn make_finite(texels: &mut [[f32; 3]]) -> usize {
     let greatest = greatest(texels);
     let mut count = 0;
@@ -135,7 +134,7 @@ pub(super) fn make_finite(texels: &mut [[f32; 3]]) -> usize {
     count
 }
 
-/// Brings components into range; returns how many were not.
+/// Brings components into range. Returns how many were not.
 fn clamp(texels: &mut [[f32; 3]]) -> usize {
     let components = || texels.iter().flatten();
     let greatest = greatest(texels);

@@ -1,7 +1,7 @@
-//! What is seen where no surface is: a spectrum or an image all around, and stars before it.
+//! The background: a spectrum or an image all around, and stars in front of it.
 //!
 //! Directions are unit vectors away from the observer, in the sky's own axes: −z in the middle of
-//! an image, +y up, columns to the right and azimuths grow to the right.
+//! an image, +y up; columns and azimuths increase to the right.
 
 mod background;
 mod catalogue;

@@ -1,9 +1,9 @@
-//! Skies in OpenEXR files: which of their channels are the picture, and its values.
+//! Skies in OpenEXR files: the choice of channels, and their values.
 //!
-//! A picture is R, G and B (in any case), or Y alone, which is grey; X, Y and Z, where there is no
-//! R, are CIE XYZ. Layers are told by what stands before the last dot of a channel's name, and by
-//! the names of parts. Plain channels go before a layer that is called as pictures are, that before
-//! any other. Pixels of the display window that the data window leaves out are black.
+//! An image is R, G and B (in any case), or Y alone, which is gray; X, Y and Z, if there is no R,
+//! are CIE XYZ. Layers are identified by the part of a channel's name before the last dot, and by
+//! the names of parts. Plain channels take precedence over a layer with a usual name for images,
+//! and that over any other. Pixels of the display window outside of the data window are black.
 //! Source: Technical Introduction to OpenEXR and OpenEXR File Layout, openexr.com.
 
 use super::file::{Pixels, SkyImageError, check_memory, check_size};
@@ -18,7 +18,7 @@ use ::exr::prelude::f16;
 use std::collections::BTreeMap;
 use std::io::Cursor;
 
-/// What programs call the layer that is the picture itself.
+/// Usual names of the layer that is the image itself.
 const PICTURES: [&str; 8] = [
     "combined",
     "beauty",
@@ -30,13 +30,13 @@ const PICTURES: [&str; 8] = [
     "c",
 ];
 
-/// Characters of the list of channels in a message.
+/// Number of characters of the list of channels in a message.
 const MOST_NAMES: usize = 400;
 
-/// Channels that are a picture.
+/// Channels that make an image.
 #[derive(Debug)]
 struct Layer {
-    /// The part and the layer's name in it, by dots; empty for plain channels.
+    /// Name of the part and the layer, by dots; empty for plain channels.
     name: String,
     part: usize,
     /// Index of the channel of each component.
@@ -45,7 +45,7 @@ struct Layer {
     rank: Rank,
 }
 
-/// How sure it is that a layer is the picture, the surest first.
+/// Likelihood that a layer is the image, the likeliest first.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum Rank {
     Plain,
@@ -54,7 +54,7 @@ enum Rank {
     Other,
 }
 
-/// The picture that a file holds.
+/// The image in a file.
 pub(super) fn decode(bytes: &[u8]) -> Result<Pixels, SkyImageError> {
     let reader = block::read(Cursor::new(bytes), false).map_err(broken)?;
     let (layer, warning) = choose(reader.headers())?;
@@ -69,7 +69,7 @@ pub(super) fn decode(bytes: &[u8]) -> Result<Pixels, SkyImageError> {
     let mut warnings: Vec<SkyWarning> = warning.into_iter().collect();
     warnings.extend(cube.then_some(SkyWarning::CubeMap));
     let Vec2(width, height) = shared.display_window.size;
-    // The picture and, until it is complete, nothing else.
+    // The image and, until it is complete, nothing else.
     check_size([width as u64, height as u64], 12)?;
     check_blocks(header)?;
     let offset = header.own_attributes.layer_position - shared.display_window.position;
@@ -93,7 +93,7 @@ pub(super) fn decode(bytes: &[u8]) -> Result<Pixels, SkyImageError> {
     })
 }
 
-/// That what the file has beyond its display window, too, can be unpacked.
+/// Checks that the data beyond the display window can be unpacked too.
 fn check_blocks(header: &Header) -> Result<(), SkyImageError> {
     let Vec2(width, height) = header.layer_size;
     check_size([width as u64, height as u64], 0).map_err(|error| match error {
@@ -118,7 +118,7 @@ fn primaries(found: &Chromaticities) -> Primaries {
     }
 }
 
-/// Puts a block's values into their places.
+/// Stores the values of a block.
 fn put(
     block: &UncompressedBlock,
     header: &Header,
@@ -171,13 +171,13 @@ fn put(
     Ok(())
 }
 
-/// The layer that is the picture, with a warning where that is a guess.
+/// The layer that is the image, with a warning if that is a guess.
 fn choose(headers: &[Header]) -> Result<(Layer, Option<SkyWarning>), SkyImageError> {
     let mut layers = Vec::new();
     for part in 0..headers.len() {
         layers.extend(layers_of(headers, part));
     }
-    // Stable: of equals the first.
+    // Stable: among equals the first.
     layers.sort_by_key(|layer| layer.rank);
     let best = layers.first().map(|layer| layer.rank);
     let equals = layers.iter().filter(|layer| Some(layer.rank) == best);
@@ -206,7 +206,7 @@ fn choose(headers: &[Header]) -> Result<(Layer, Option<SkyWarning>), SkyImageErr
     Ok((layer, warning))
 }
 
-/// Why there is no picture among the channels.
+/// The reason why the channels contain no image.
 fn no_picture(headers: &[Header]) -> SkyImageError {
     let chroma = |name: &str| matches!(last_word(name).as_str(), "ry" | "by");
     let mut channels = headers.iter().flat_map(|header| &header.channels.list);
@@ -217,7 +217,7 @@ fn no_picture(headers: &[Header]) -> SkyImageError {
     }
 }
 
-/// The pictures among a part's channels, by name.
+/// The images among a part's channels, by name.
 fn layers_of(headers: &[Header], part: usize) -> Vec<Layer> {
     let header = &headers[part];
     let part_name = header.own_attributes.layer_name.as_ref();
@@ -266,7 +266,7 @@ fn layers_of(headers: &[Header], part: usize) -> Vec<Layer> {
     by_layer.into_iter().filter_map(layer).collect()
 }
 
-/// What a channel is in its layer, in lower case.
+/// The name of a channel within its layer, in lower case.
 fn last_word(name: &str) -> String {
     let word = name.rsplit_once('.').map_or(name, |(_, word)| word);
     word.to_lowercase()

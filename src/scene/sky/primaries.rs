@@ -1,4 +1,4 @@
-//! From the colors that a file says it has to linear Rec. 709.
+//! Conversion of a file's colors, by its chromaticities, to linear Rec. 709.
 
 use super::SkyWarning;
 use crate::color::spaces::{
@@ -6,14 +6,15 @@ use crate::color::spaces::{
     xyz_from_primaries,
 };
 
-/// How far a chromaticity may be from Rec. 709's and still be it: files round it to three digits.
+/// Largest difference of a chromaticity from that of Rec. 709 that counts as rounding: files have
+/// three digits.
 const SAME: f64 = 1e-3;
 
-/// Largest element of a matrix to Rec. 709 that is believed; ProPhoto's are about 2, XYZ's 3.3.
+/// Largest plausible element of a matrix to Rec. 709; those of ProPhoto are about 2, of XYZ 3.3.
 const STEEPEST: f64 = 100.0;
 
-/// How far below 0 a component may come by rounding, over the greatest of its color: halves have
-/// 2⁻¹¹, shared exponents 2⁻⁸, and matrices add to it.
+/// Largest amount by which rounding may make a component negative, relative to the greatest of its
+/// color: half floats have 2⁻¹¹, shared exponents 2⁻⁸, and matrices add to it.
 const ROUNDING: f32 = 0.02;
 
 /// The chromaticities x, y of a file's red, green, blue and white.
@@ -42,10 +43,10 @@ impl Primaries {
         apart.all(|apart| apart.abs() <= SAME)
     }
 
-    /// Linear Rec. 709 of a color: the white becomes D65 by Bradford's adaptation, as in the
-    /// Academy's and OpenColorIO's conversions (OpenEXR's own programs leave it as it is). XYZ are
-    /// those of the light itself, so that nothing is adapted: D65 is (0.9505, 1, 1.0891). `None` if
-    /// they are the chromaticities of no color space.
+    /// Linear Rec. 709 from the file's RGB: the white becomes D65 by Bradford's adaptation, as in
+    /// the Academy's and OpenColorIO's conversions (OpenEXR's own programs do not adapt). XYZ are
+    /// those of the light itself, without adaptation: D65 is (0.9505, 1, 1.0891). None if the
+    /// chromaticities are of no color space.
     fn rec709_from_rgb(&self) -> Option<Matrix> {
         let xyz = xyz_from_primaries(self.rgb, self.white);
         let adapted = if self.near(&Self::XYZ) {
@@ -54,7 +55,7 @@ impl Primaries {
             product(&d65_from_white(self.white), &xyz)
         };
         let matrix = product(&RGB_FROM_XYZ, &adapted);
-        // The white lies within the primaries: each adds to it, in X + Y + Z.
+        // The white lies within the primaries: each contributes to it, in X + Y + Z.
         let sum = |column: usize| xyz.iter().map(|row| row[column]).sum::<f64>();
         let inside = (0..3).all(|column| sum(column) > 0.0);
         let believed = matrix
@@ -64,8 +65,8 @@ impl Primaries {
         (inside && believed).then_some(matrix)
     }
 
-    /// Makes texels linear Rec. 709. What lies beyond it is mixed with the white of its own
-    /// luminance as far as is needed for no component to be negative, and counted.
+    /// Converts texels to linear Rec. 709. Colors beyond it are mixed with white of their own
+    /// luminance until no component is negative, and are counted.
     pub(super) fn convert(&self, texels: &mut [[f32; 3]]) -> Option<SkyWarning> {
         if self.near(&Self::REC709) {
             return None;
@@ -85,8 +86,8 @@ impl Primaries {
     }
 }
 
-/// Mixes a color that has luminance with white of the same, until no component is negative; returns
-/// whether it was beyond rounding.
+/// Mixes a color that has luminance with white of the same luminance until no component is
+/// negative. Returns whether it was beyond rounding.
 fn bring_inside(texel: &mut [f32; 3]) -> bool {
     let least = texel.iter().copied().fold(f32::INFINITY, f32::min);
     let most = texel.iter().copied().fold(0.0, f32::max);

@@ -1,31 +1,31 @@
 //! Skies in Radiance files: their header, exposure, colors and orientation.
 //!
-//! A file is any `#?` line, lines of the header up to an empty one, a line of the resolution, and
-//! scan lines of shared exponents. Values are divided by the product of all EXPOSURE lines, and of
-//! all COLORCORR lines, so that they are the light that came in. Colors are Rec. 709's unless
-//! PRIMARIES says otherwise, as everybody but Radiance itself writes them; XYZE is CIE XYZ.
-//! Source: Ward, Radiance File Formats (radsite.lbl.gov, filefmts.pdf), Picture File Format.
+//! A file is any `#?` line, header lines up to an empty one, a line with the resolution, and scan
+//! lines of shared exponents. Values are divided by the product of all EXPOSURE lines, and of all
+//! COLORCORR lines, so that they are the incoming light. Colors are Rec. 709 unless PRIMARIES
+//! states otherwise, as all programs except Radiance itself write them; XYZE is CIE XYZ. Source:
+//! Ward, Radiance File Formats (radsite.lbl.gov, filefmts.pdf), Picture File Format.
 
 use super::file::{Pixels, SkyImageError, check_size};
 use super::primaries::Primaries;
 
-/// Most bytes of a line of the header.
+/// Length of the longest header line, bytes.
 const LONGEST_LINE: usize = 1 << 16;
 
-/// Pixels of scan lines that may have runs for each component.
+/// Lengths of scan lines that may have runs for each component, pixels.
 const BY_COMPONENT: std::ops::Range<usize> = 8..32768;
 
-/// What the lines of a header say.
+/// Content of a header.
 struct Header {
-    /// What values are to be divided by, for each component.
+    /// Divisor of the values, for each component.
     divisor: [f64; 3],
     primaries: Option<Primaries>,
     order: Order,
-    /// Where pixels begin.
+    /// Position at which the pixels begin.
     end: usize,
 }
 
-/// The order in which pixels stand in a file.
+/// The order of the pixels in a file.
 struct Order {
     size: [usize; 2],
     /// Whether scan lines are rows, not columns.
@@ -34,14 +34,14 @@ struct Order {
     forwards: [bool; 2],
 }
 
-/// The picture that a file holds.
+/// The image in a file.
 pub(super) fn decode(bytes: &[u8]) -> Result<Pixels, SkyImageError> {
     let header = header(bytes)?;
     let Order { size, by_rows, .. } = header.order;
     check_size(size.map(|side| side as u64), 16)?;
     let length = size[usize::from(!by_rows)];
-    // Not touched before pixels are written to it, so that a short file with a long header is
-    // refused at once.
+    // Memory is not touched before pixels are written to it, so that a short file with a long
+    // header is refused at once.
     let mut pixels = vec![[0; 4]; size[0] * size[1]];
     let mut rest = &bytes[header.end..];
     for line in pixels.chunks_mut(length) {
@@ -50,7 +50,7 @@ pub(super) fn decode(bytes: &[u8]) -> Result<Pixels, SkyImageError> {
     let texel = |at: usize| {
         let [parts @ .., exponent] = pixels[at];
         let unit = unit(exponent);
-        // Without exposure the very values of the file.
+        // Without exposure, exactly the values of the file.
         [0, 1, 2].map(|c: usize| (f64::from(parts[c]) * unit / header.divisor[c]) as f32)
     };
     let [width, height] = size;
@@ -65,7 +65,7 @@ pub(super) fn decode(bytes: &[u8]) -> Result<Pixels, SkyImageError> {
     })
 }
 
-/// What a part of a pixel with this exponent is multiplied by: 2 to its power over 128, over 256.
+/// The factor of a mantissa with this exponent: 2^(exponent − 128) / 256.
 fn unit(exponent: u8) -> f64 {
     match exponent {
         0 => 0.0,
@@ -84,7 +84,7 @@ fn scan_line(rest: &mut &[u8], line: &mut [[u8; 4]]) -> Result<(), SkyImageError
     }
 }
 
-/// Reads a component: a count above 128 is one of repeats of the byte after it, another of bytes.
+/// Reads a component: a count above 128 is of repeats of the next byte, any other of bytes.
 fn by_component(
     rest: &mut &[u8],
     line: &mut [[u8; 4]],
@@ -111,8 +111,8 @@ fn by_component(
     Ok(())
 }
 
-/// Reads pixels; (1, 1, 1, n) are n repeats of the one before, each such one that follows another
-/// counts 256 times as much.
+/// Reads pixels; (1, 1, 1, n) are n repeats of the pixel before, and each such one that follows
+/// another counts 256 times as much.
 fn by_pixel(rest: &mut &[u8], line: &mut [[u8; 4]]) -> Result<(), SkyImageError> {
     let mut at = 0;
     let mut shift = 0;
@@ -155,7 +155,7 @@ fn take<const N: usize>(rest: &mut &[u8]) -> Result<[u8; N], SkyImageError> {
 }
 
 impl Order {
-    /// Where in the file the pixel of a column and a row, from the upper left, stands.
+    /// The index in the file of the pixel at a column and row from the upper left.
     fn index(&self, place: [usize; 2]) -> usize {
         let from = |axis: usize| match self.forwards[axis] {
             true => place[axis],
@@ -170,7 +170,7 @@ impl Order {
     }
 
     /// Reads a line such as `-Y 512 +X 1024`. The first axis goes from one scan line to the next; Y
-    /// is counted upwards.
+    /// is counted upward.
     fn read(line: &str) -> Option<Self> {
         let words: Vec<&str> = line.split_ascii_whitespace().collect();
         let [first, lines, second, length] = words[..] else {
@@ -213,7 +213,7 @@ fn header(bytes: &[u8]) -> Result<Header, SkyImageError> {
         },
         end: 0,
     };
-    // The signature: whatever follows `#?` is the name of a program.
+    // The signature: the text after `#?` is the name of a program.
     lines.next()?;
     loop {
         let line = lines.next()?;
@@ -230,7 +230,7 @@ fn header(bytes: &[u8]) -> Result<Header, SkyImageError> {
 }
 
 impl Header {
-    /// Takes a line in. What begins otherwise, as with a tab, is a note of some program.
+    /// Evaluates a line. A line with another beginning, such as a tab, is a note of some program.
     fn take(&mut self, line: &str) -> Result<(), SkyImageError> {
         let Some((key, value)) = line.split_once('=') else {
             return Ok(());
@@ -250,7 +250,7 @@ impl Header {
                 let divisor = self.divisor;
                 self.divisor = [divisor[0] * r, divisor[1] * g, divisor[2] * b];
             }
-            // Those of XYZE are known.
+            // The primaries of XYZE are known.
             "PRIMARIES" if self.primaries != Some(Primaries::XYZ) => {
                 let expected = "8 numbers, x and y of red, green, blue and white";
                 let [rx, ry, gx, gy, bx, by, wx, wy] =
@@ -273,7 +273,7 @@ fn unlike(line: &str, expected: &'static str) -> SkyImageError {
     }
 }
 
-/// As many numbers as are expected, and no more.
+/// Exactly as many numbers as expected.
 fn numbers<const N: usize>(value: &str) -> Option<[f64; N]> {
     let numbers: Option<Vec<f64>> = value.split_whitespace().map(|n| n.parse().ok()).collect();
     numbers?.try_into().ok()
@@ -284,7 +284,7 @@ fn factors<const N: usize>(value: &str) -> Option<[f64; N]> {
     numbers(value).filter(|all| all.iter().all(|v| v.is_finite() && *v > 0.0))
 }
 
-/// The lines of a header, by LF or CR LF.
+/// The lines of a header, ending in LF or CR LF.
 struct Lines<'a> {
     bytes: &'a [u8],
     at: usize,

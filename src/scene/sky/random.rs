@@ -1,19 +1,19 @@
-//! A sky of random stars, the same on every machine.
+//! Random stars, the same on every machine.
 
 use super::catalogue::Star;
 use crate::shot::RandomStars;
 use glam::DVec3;
 
-/// Growth of the number of stars with magnitude: log₁₀ N(< m) rises by this a magnitude. The sky
-/// has 49 stars brighter than the second magnitude and 4968 brighter than the sixth (counts from
-/// the Hipparcos catalogue, OEIS A053406).
+/// Growth of the number of stars: log₁₀ N(< m) rises by this per magnitude. The sky has 49 stars
+/// brighter than the second magnitude and 4968 brighter than the sixth (counts from the Hipparcos
+/// catalogue, OEIS A053406).
 const COUNTS_PER_MAGNITUDE: f64 = 0.5;
 
-/// The stars that the keys describe: evenly over the sphere, temperatures even in their logarithm,
-/// magnitudes as the real sky has them.
+/// The stars that the keys describe: uniform over the sphere, temperatures uniform in their
+/// logarithm, magnitudes as in the real sky.
 ///
-/// Directions are made without functions that differ from machine to machine; temperatures and
-/// magnitudes may differ by rounding.
+/// Directions use no functions that differ between machines; temperatures and magnitudes may differ
+/// by rounding.
 pub fn random_stars(keys: &RandomStars) -> Vec<Star> {
     let mut random = SplitMix(u64::from(keys.seed));
     let [coldest, hottest] = keys.temperature;
@@ -47,13 +47,13 @@ impl SplitMix {
         z ^ (z >> 31)
     }
 
-    /// From 0 to below 1, in steps of 2⁻⁵³.
+    /// A number from 0 to below 1, in steps of 2⁻⁵³.
     fn unit(&mut self) -> f64 {
         (self.next() >> 11) as f64 / (1u64 << 53) as f64
     }
 
-    /// Evenly over the sphere, by products and roots alone (Marsaglia 1972, Choosing a Point from
-    /// the Surface of a Sphere).
+    /// A direction uniform over the sphere, by products and roots alone (Marsaglia 1972, Choosing a
+    /// Point from the Surface of a Sphere).
     fn direction(&mut self) -> DVec3 {
         loop {
             let [a, b] = [0, 1].map(|_| 2.0 * self.unit() - 1.0);

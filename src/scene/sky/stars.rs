@@ -1,7 +1,7 @@
-//! Stars: discs that glow as black bodies, found by direction.
+//! Stars: discs that emit as black bodies, found by direction.
 //!
-//! A star is a disc of one radiance, so that aberration, beaming and the shift of its light need no
-//! rule of their own. Its illuminance at an observer at rest in the sky, on a surface that faces
+//! A star is a disc of uniform radiance, so that aberration, beaming and shift of its light need no
+//! rules of their own. Its illuminance at an observer at rest in the sky, on a surface that faces
 //! it, is that of its visual magnitude, whatever its size and temperature.
 
 use super::catalogue::Star;
@@ -12,8 +12,8 @@ use glam::DVec3;
 use std::f64::consts::PI;
 use std::sync::LazyLock;
 
-/// The visual magnitude that is an illuminance of 1 lx outside the atmosphere (Allen 1976,
-/// Astrophysical Quantities, 3rd edition; a star of magnitude 0 gives 2.5·10⁻⁶ lx).
+/// The visual magnitude of an illuminance of 1 lx outside the atmosphere (Allen 1976, Astrophysical
+/// Quantities, 3rd edition; a star of magnitude 0 gives 2.5·10⁻⁶ lx).
 const LUX_MAGNITUDE: f64 = -13.98;
 
 /// The light of a star's disc: its spectral radiance is `scale` · B(λ, T).
@@ -28,13 +28,13 @@ pub struct StarLight {
 /// Stars of one size, sorted into the cells of a grid on the faces of a cube.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Stars {
-    /// Cells along an edge of the cube.
+    /// Number of cells along an edge of the cube.
     side: usize,
-    /// Where the entries of each cell begin; one more at the end.
+    /// Index of the first entry of each cell; one more at the end.
     first: Vec<u32>,
     entries: Vec<Entry>,
     lights: Vec<StarLight>,
-    /// Square of the distance, on the unit sphere, from a disc's middle to its edge.
+    /// Square of the distance, on the unit sphere, from the center of a disc to its edge.
     chord_squared: f64,
 }
 
@@ -51,7 +51,7 @@ impl Stars {
     pub fn new(stars: &[Star], size_deg: f64) -> Self {
         let radius = 0.5 * size_deg.to_radians();
         let chord = 2.0 * (0.5 * radius).sin();
-        // About two cells a star, none smaller than a disc: most hold one star or none.
+        // About two cells per star, none smaller than a disc: most contain at most one star.
         let most = (90.0 / size_deg).max(1.0);
         let side = (stars.len() as f64 / 2.0).sqrt().ceil().clamp(1.0, most) as usize;
         let projected = PI * radius.sin().powi(2);
@@ -70,7 +70,7 @@ impl Stars {
         grid
     }
 
-    /// Sorts by counting: the stars of a cell keep their order.
+    /// Counting sort: the stars of a cell keep their order.
     fn sort_in(&mut self, stars: &[Star], chord: f64) {
         for star in stars {
             cells(star.direction, chord, self.side, |cell| {
@@ -97,12 +97,12 @@ impl Stars {
         }
     }
 
-    /// How many stars there are.
+    /// Number of stars.
     pub fn count(&self) -> usize {
         self.lights.len()
     }
 
-    /// The stars whose discs hold a unit direction.
+    /// The stars whose discs contain a unit direction.
     #[inline]
     pub fn seen(&self, direction: DVec3) -> impl Iterator<Item = StarLight> {
         let cell = cell_of(direction, self.side);
@@ -141,7 +141,7 @@ fn luminance(kelvin: f64) -> f64 {
     ln.exp()
 }
 
-/// The cell that a direction lies in.
+/// The cell that contains a direction.
 #[inline]
 fn cell_of(direction: DVec3, side: usize) -> usize {
     let size = direction.abs();
@@ -163,12 +163,12 @@ fn step(place: f64, side: usize) -> usize {
     ((0.5 * (place + 1.0) * side as f64) as usize).min(side - 1)
 }
 
-/// Calls `add` with every cell that a disc may reach into: those that the box around it does, as
-/// seen on each face.
+/// Calls `add` with every cell that a disc may reach into: those of the box around it, as seen on
+/// each face.
 fn cells(middle: DVec3, chord: f64, side: usize, mut add: impl FnMut(usize)) {
     // Wider than rounding in either place.
     let reach = chord * (1.0 + 1e-9) + 1e-14;
-    // On a face its own axis is the greatest.
+    // On a face its own axis has the greatest component.
     let least = 1.0 / 3f64.sqrt() - 1e-9;
     for face in 0..6 {
         let axis = face / 2;

@@ -1,19 +1,19 @@
-//! What of a sky's file the picture will not show as it stands there.
+//! Warnings about skies that the image may not show as their author meant them.
 
 use std::fmt;
 
-/// Why a sky may not be what its file's author meant. Messages continue "FILE: ".
+/// A doubt about a sky. Messages continue "FILE: ".
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub enum SkyWarning {
-    /// Components that are no light.
+    /// Components that are negative or not finite.
     Clamped {
-        /// How many.
+        /// Number of components.
         count: usize,
     },
-    /// Colors that Rec. 709 has not.
+    /// Colors outside of Rec. 709.
     Gamut {
-        /// Of how many pixels.
+        /// Number of pixels.
         count: usize,
     },
     /// Chromaticities of no color space.
@@ -28,9 +28,9 @@ pub enum SkyWarning {
         /// Columns and rows.
         size: [usize; 2],
     },
-    /// An OpenEXR file that says it is a cube map.
+    /// An OpenEXR file that declares itself a cube map.
     CubeMap,
-    /// One of several layers, or one that is not called as pictures are.
+    /// One of several layers, or one without a usual name for images.
     Layer {
         /// Its name.
         taken: String,
@@ -79,7 +79,7 @@ impl fmt::Display for SkyWarning {
     }
 }
 
-/// What pictures of these proportions often are.
+/// What images of these proportions often are.
 fn guess(width: usize, height: usize) -> &'static str {
     let is = |across, down| width * down == height * across;
     if is(1, 1) {

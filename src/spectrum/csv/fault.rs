@@ -1,40 +1,40 @@
-//! What is wrong with a measured table, and what it may not mean as it is read.
+//! Faults of a measured table, and warnings about its interpretation.
 
 use super::unit::Unit;
 use crate::spectrum::{MAX_ROWS, MAX_VALUE};
 use std::fmt;
 
-/// How far below 0 values may be, as a part of the greatest: instruments have a few hundredths of
-/// noise where there is no light.
+/// Largest amount below 0 of a value, relative to the greatest: instruments have noise of a few
+/// hundredths where there is no light.
 pub const NOISE: f64 = 0.05;
 
-/// What a table may not mean as it is read. Messages continue "FILE: ".
+/// A doubt about the interpretation of a table. Messages continue "FILE: ".
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub enum TableWarning {
     /// Columns after the second.
     Columns {
-        /// Names or numbers of those left out.
+        /// Names or numbers of the columns that are left out.
         left_out: String,
     },
     /// Values below 0, as noise has them.
     Negative {
-        /// How many.
+        /// Number of values.
         count: usize,
-        /// The least.
+        /// The least of them.
         least: f64,
     },
     /// A first column that is not in nm.
     Converted {
-        /// What it is in.
+        /// Its unit.
         unit: Unit,
     },
-    /// Values that are not parts of 1, nor per nm.
+    /// Values that are neither fractions of 1 nor per nm.
     Values {
-        /// The name of their column.
+        /// Name of their column.
         name: String,
     },
-    /// No unit, and no point near the sensor's window.
+    /// Without a unit, and with no point near the sensor's window.
     Far {
         /// First and last wavelength, as read, nm.
         points: [f64; 2],
@@ -73,11 +73,11 @@ impl fmt::Display for TableWarning {
     }
 }
 
-/// Why a table is no curve. Lines are counted from 1.
+/// Reason why a table is not a curve. Lines are counted from 1.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum TableError {
-    /// No row is in it.
+    /// There is no row.
     #[error(
         "there is no row of numbers: expected rows of wavelength and value, such as `400, 0.5`"
     )]
@@ -85,7 +85,7 @@ pub enum TableError {
     /// More than [`MAX_ROWS`].
     #[error("there are more than {MAX_ROWS} rows")]
     TooMany,
-    /// A unit that is not known.
+    /// The unit of the first column is unknown.
     #[error(
         "line {line}: the unit of the first column, `{found}`, is not known: expected nm, µm, Å, mm, m, cm-1, eV, Hz or THz, as in `wavelength (nm), value`"
     )]
@@ -95,7 +95,7 @@ pub enum TableError {
         /// What stands there.
         found: String,
     },
-    /// The wavelength is another column than the first.
+    /// The wavelength is not the first column.
     #[error(
         "line {line}: column {column} is `{name}`, and the wavelength must be column 1: save it as the first"
     )]
@@ -125,7 +125,7 @@ pub enum TableError {
         /// How many fields there are.
         found: usize,
     },
-    /// Commas that may be decimal signs.
+    /// Commas may be decimal signs.
     #[error(
         "line {line}: expected two columns, wavelength and value, found {found} of whole numbers: where the comma is the decimal sign, part the columns by semicolons; otherwise name the columns in the first line"
     )]
@@ -143,7 +143,7 @@ pub enum TableError {
         /// What stands there.
         found: f64,
     },
-    /// A value is no number, infinite or too large.
+    /// A value is NaN, infinite or too large.
     #[error(
         "line {line}: the value is {found}: it must be from 0 to {MAX_VALUE:e}; leave out rows without one"
     )]
@@ -174,7 +174,7 @@ pub enum TableError {
         line: usize,
         /// What stands there.
         found: f64,
-        /// What stood in the row before.
+        /// The value in the row before.
         before: f64,
     },
 }

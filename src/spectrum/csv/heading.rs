@@ -1,18 +1,18 @@
-//! What the lines before a measured table's rows say of its columns.
+//! The header of a measured table: units and names of its columns.
 
 use super::fault::TableError;
 use super::table::{Parted, Table};
 use super::unit::Unit;
 
-/// Lines of a header that are looked at, the nearest to the rows first.
+/// Number of header lines that are read, starting with the one nearest to the rows.
 const MOST_LINES: usize = 2;
 
-/// How columns of wavelengths, or of what they follow from, are called.
+/// Names of columns of wavelengths, or of quantities that determine them.
 const ABSCISSAE: [&str; 7] = [
     "wave", "lambda", "λ", "wellen", "freq", "energy", "longueur",
 ];
 
-/// What may stand in brackets after a wavelength and is no unit.
+/// Words in brackets after a wavelength that are not units.
 const NO_UNITS: [&str; 8] = [
     "air",
     "in air",
@@ -24,24 +24,24 @@ const NO_UNITS: [&str; 8] = [
     "measured",
 ];
 
-/// Words in the names of columns of uncertainties, and how such words begin.
+/// Words, and beginnings of words, in the names of columns of uncertainties.
 const DEVIATIONS: [&str; 4] = ["sd", "err", "unc", "dev"];
 const DEVIATIONS_BEGIN: [&str; 6] = ["sigma", "σ", "std", "uncert", "deviat", "error"];
 
-/// Longest name that words are still joined to, bytes.
+/// Length of a name, in bytes, from which on no more words are joined to it.
 const LONGEST_NAME: usize = 200;
 
-/// What comments begin with that is no unit then: list items, illuminants, instruments.
+/// Beginnings of comments that are not units there: list items, illuminants, instruments.
 const NO_UNITS_OF_COMMENTS: [&str; 3] = ["a", "m", "meter"];
 
 /// The columns of a table.
 #[derive(Debug, Default)]
 pub(super) struct Heading {
-    /// What the first column is in, where it says.
+    /// Unit of the first column, if stated.
     pub(super) unit: Option<Unit>,
-    /// Their names, where they have some.
+    /// Names of the columns, if stated.
     pub(super) names: Vec<String>,
-    /// What the second one's values are, where they are no parts of 1 nor per nm.
+    /// Meaning of the second column's values, if they are neither fractions of 1 nor per nm.
     pub(super) values: Option<String>,
 }
 
@@ -56,7 +56,7 @@ impl Heading {
     /// Reads the lines before the rows.
     ///
     /// # Errors
-    /// A unit that is not known, and a wavelength that is not the first column.
+    /// An unknown unit, and a wavelength that is not the first column.
     pub(super) fn of(table: &Table<'_>) -> Result<Self, TableError> {
         let lines = lines(table);
         let all = || lines.iter();
@@ -102,7 +102,7 @@ fn lines(table: &Table<'_>) -> Vec<Names> {
             let is_value = names
                 .get(1)
                 .is_some_and(|name| table.number(name).is_some());
-            // Comments say much else.
+            // A comment may be about anything, so more is required of it.
             let bare = first.trim_end_matches(|c: char| !c.is_alphanumeric());
             let is_word = NO_UNITS_OF_COMMENTS.contains(&bare.to_lowercase().as_str());
             let alone = !is_comment || !first.contains(' ') && !is_word;
@@ -120,10 +120,10 @@ fn lines(table: &Table<'_>) -> Vec<Names> {
     all
 }
 
-/// Joins words that spaces part to names: a unit in brackets to what it is the unit of.
+/// Words joined to names: a unit in brackets belongs to the word before.
 fn merged(words: &[&str]) -> Vec<String> {
     let mut names: Vec<String> = Vec::new();
-    // Brackets that are open in the last name.
+    // Number of brackets open in the last name.
     let mut depth = 0;
     for word in words {
         let belongs = word.starts_with(['(', '[', '/']) || *word == "in";
@@ -151,7 +151,7 @@ fn merged(words: &[&str]) -> Vec<String> {
     names
 }
 
-/// That a header without a unit that is known says nothing that would be passed over.
+/// Refuses a header whose unit is unknown, because ignoring it could shift the spectrum.
 fn check(line: &Names) -> Result<(), TableError> {
     let first = &line.names[0];
     let strange = |found: &str| TableError::Unit {
@@ -179,7 +179,7 @@ fn check(line: &Names) -> Result<(), TableError> {
     }
 }
 
-/// What in brackets, or behind a stroke, looks like a unit.
+/// The part in brackets, or behind a slash, that looks like a unit.
 fn bracketed(name: &str) -> Option<&str> {
     let open = name.find(['(', '[', '/'])?;
     let inside = name[open + 1..].split([')', ']']).next()?.trim();
@@ -188,7 +188,7 @@ fn bracketed(name: &str) -> Option<&str> {
     (letters && !known).then_some(inside)
 }
 
-/// Whether a column is named as one of uncertainties.
+/// Whether the name of a column is that of an uncertainty.
 fn is_deviation(name: &str) -> bool {
     let lower = name.to_lowercase();
     let mut words = lower.split(|c: char| !c.is_alphabetic());

@@ -1,34 +1,34 @@
-//! A measured curve as a file has it, and what is to be said of it.
+//! A measured curve as read from a file, and the warnings about it.
 
 use super::fault::{NOISE, TableError, TableWarning};
 use super::heading::Heading;
 use super::table::Table;
 use crate::spectrum::{Beyond, MAX_ROWS, MAX_VALUE, Sampled};
 
-/// How far from the sensor's window, as a ratio, points in no stated unit are still believed.
+/// Ratio to the sensor's window within which points without a stated unit are believed.
 const NEAR: f64 = 2.0;
 
-/// A measured curve, and what of its file is to be known.
+/// A measured curve, and facts about its file.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Measured {
-    /// The curve; it holds beyond its ends.
+    /// The curve; it is constant beyond its ends.
     pub curve: Sampled,
     names_unit: bool,
     warnings: Vec<TableWarning>,
 }
 
-/// A row's numbers.
+/// The numbers of a row.
 struct Row {
     line: usize,
-    /// As it stands there.
+    /// The first number as written.
     number: f64,
     nm: f64,
     value: f64,
 }
 
 impl Measured {
-    /// Reads a [`Table`] whose first column is the wavelength in nm, or in what the header says, or
-    /// what a wavelength follows from; its second is the value. Rows ascend or descend.
+    /// Reads a [`Table`] whose first column is the wavelength in nm, or in the unit of the header,
+    /// or a quantity that determines it; its second column is the value. Rows ascend or descend.
     ///
     /// # Errors
     /// The first fault.
@@ -61,7 +61,7 @@ impl Measured {
         })
     }
 
-    /// What it may not mean as it is read, for a sensor's window in nm.
+    /// Warnings about the interpretation of the file, given a sensor's window in nm.
     pub fn warnings(&self, window: [f64; 2]) -> Vec<TableWarning> {
         let nm = self.curve.knots_nm();
         let points = [nm[0], nm[nm.len() - 1]];
@@ -71,7 +71,7 @@ impl Measured {
     }
 }
 
-/// All rows, with the greatest number of columns.
+/// All rows, with the largest number of columns.
 fn rows(table: &Table<'_>, heading: &Heading) -> Result<(Vec<Row>, usize), TableError> {
     let mut rows = Vec::new();
     let mut columns = 0;
@@ -132,7 +132,7 @@ fn row(
     })
 }
 
-/// Turns descending rows around.
+/// Reverses descending rows.
 fn order(rows: &mut [Row]) -> Result<(), TableError> {
     let descends = |rows: &[Row]| rows.first().map(|row| row.nm) > rows.last().map(|row| row.nm);
     let sign = if descends(rows) { -1.0 } else { 1.0 };
@@ -152,7 +152,7 @@ fn order(rows: &mut [Row]) -> Result<(), TableError> {
     Ok(())
 }
 
-/// Lifts noise to 0.
+/// Sets negative noise to 0.
 fn lift(rows: &mut [Row]) -> Result<Option<TableWarning>, TableError> {
     let greatest = rows.iter().map(|row| row.value).fold(0.0, f64::max);
     let noise = -NOISE * greatest;

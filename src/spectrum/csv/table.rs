@@ -1,33 +1,33 @@
 //! Tables of numbers in text, as programs and instruments write them.
 //!
-//! Lines end in LF, CR LF or CR. `#` begins a comment. Lines before the first that begins like a
-//! number are the header. Columns are parted by semicolon, comma, tab or spaces, whichever makes
-//! numbers of the first row; fields may be in quotes. The decimal sign is the point, or, where the
-//! rows have none, a comma that parts no columns.
+//! Lines end in LF, CR LF or CR. `#` begins a comment. The lines before the first that begins like
+//! a number are the header. Columns are separated by semicolon, comma, tab or spaces, whichever
+//! makes numbers of the first row; fields may be quoted. The decimal sign is the point or, if the
+//! rows have none, a comma that does not separate columns.
 
-/// What may part columns; None is any white space.
+/// Separators of columns; None is any white space.
 const SIGNS: [Option<char>; 4] = [Some(';'), Some(','), Some('\t'), None];
 
-/// A table as it stands in a text.
+/// A table in a text.
 #[derive(Debug)]
 pub struct Table<'a> {
     text: &'a str,
     sign: Option<char>,
     has_points: bool,
-    /// Rows begin with this line, from 1.
+    /// Line of the first row, from 1.
     first: usize,
 }
 
 /// A line before the rows.
 #[derive(Debug)]
 pub(super) struct HeaderLine<'a> {
-    /// Which, from 1.
+    /// Line number, from 1.
     pub(super) line: usize,
     pub(super) text: &'a str,
     pub(super) is_comment: bool,
 }
 
-/// What parts the fields of a line.
+/// The separator of the fields of a line.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Parted {
     BySign,
@@ -35,7 +35,7 @@ pub(super) enum Parted {
 }
 
 impl<'a> Table<'a> {
-    /// Finds out how a text parts its numbers.
+    /// A table, with its separator and decimal sign determined from the text.
     pub fn new(text: &'a str) -> Self {
         let text = text.strip_prefix('\u{feff}').unwrap_or(text);
         let begins = |&(_, line): &(usize, &str)| begins_like_a_number(content(line));
@@ -62,7 +62,8 @@ impl<'a> Table<'a> {
         table
     }
 
-    /// The rows: the line's number, from 1, and its fields. Empty ones at its end are left out.
+    /// The rows, each with its line number, from 1, and its fields. Empty fields at the end are
+    /// left out.
     pub fn rows(&self) -> impl Iterator<Item = (usize, Vec<&'a str>)> {
         let sign = self.sign;
         let rows = lines(self.text).skip(self.first.saturating_sub(1));
@@ -70,7 +71,7 @@ impl<'a> Table<'a> {
         rows.filter(|(_, fields)| !fields.is_empty())
     }
 
-    /// The number that a field is.
+    /// The number in a field.
     pub fn number(&self, field: &str) -> Option<f64> {
         if !self.has_points && field.matches(',').count() == 1 {
             return field.replace(',', ".").parse().ok();
@@ -78,12 +79,12 @@ impl<'a> Table<'a> {
         field.parse().ok()
     }
 
-    /// Whether commas part columns and none of the numbers has a decimal sign.
+    /// Whether commas separate columns and no number has a decimal sign.
     pub(super) fn may_have_decimal_commas(&self) -> bool {
         self.sign == Some(',') && !self.has_points
     }
 
-    /// What stands before the rows, comments without their sign.
+    /// The lines before the rows; comments without their sign.
     pub(super) fn header(&self) -> Vec<HeaderLine<'a>> {
         let before = lines(self.text).take(self.first.saturating_sub(1));
         let line = |(line, text): (usize, &'a str)| {
@@ -102,7 +103,7 @@ impl<'a> Table<'a> {
             .collect()
     }
 
-    /// The fields of a line of the header, which may be parted otherwise than the rows are.
+    /// The fields of a header line, which may have another separator than the rows.
     pub(super) fn names(&self, line: &'a str) -> (Vec<&'a str>, Parted) {
         let mut signs = [self.sign].into_iter().chain(SIGNS).flatten();
         let sign = signs.find(|sign| line.contains(*sign));
@@ -134,8 +135,8 @@ fn begins_like_a_number(content: &str) -> bool {
 
 const QUOTES: [char; 3] = ['"', '\'', ' '];
 
-/// The fields of a row, without quotes: parted by one sign, or by white space alone. A sign in
-/// double quotes parts nothing.
+/// The fields of a row, without quotes, separated by one sign or by white space. A sign within
+/// double quotes does not separate.
 fn fields(content: &str, sign: Option<char>) -> Vec<&str> {
     let mut quoted = false;
     let parts = move |c: char| {

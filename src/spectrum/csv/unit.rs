@@ -9,11 +9,11 @@ const NM_EV: f64 = 6.626_070_15e-34 * 299_792_458.0 / 1.602_176_634e-19 * 1e9;
 /// The speed of light, nm·THz (SI Brochure).
 const NM_THZ: f64 = 299_792.458;
 
-/// Something that a wavelength follows from.
+/// A quantity that determines a wavelength.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Unit {
     name: &'static str,
-    /// Whether it is one over the length of that name.
+    /// Whether the unit is one over the length of that name.
     is_inverse: bool,
     to_nm: ToNm,
 }
@@ -26,7 +26,8 @@ enum ToNm {
     Over(f64),
 }
 
-/// Words for units in lower case with the micro sign; those of 5 letters and more also begin words.
+/// Words for units, in lower case with the micro sign; those of 5 letters or more also match the
+/// beginning of a word.
 const WORDS: [(&[&str], &str, ToNm); 14] = [
     (
         &["nm", "nanom", "mµ", "millimicron"],
@@ -52,7 +53,7 @@ const WORDS: [(&[&str], &str, ToNm); 14] = [
     (&["thz", "terah"], "THz", ToNm::Over(NM_THZ)),
 ];
 
-/// Symbols that mean something else in another case.
+/// Symbols that have another meaning in another case.
 const SYMBOLS: [(&str, ToNm); 3] = [
     ("m", ToNm::Times(1e9)),
     ("meV", ToNm::Over(NM_EV * 1e3)),
@@ -62,10 +63,10 @@ const SYMBOLS: [(&str, ToNm); 3] = [
 /// Digits of exponents, from 0.
 const RAISED: [char; 10] = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
 
-/// What may stand between the factors of a unit.
+/// Signs between the factors of a unit.
 const TIMES: [char; 6] = [' ', '·', '⋅', '*', '.', '_'];
 
-/// Words that need no unit to be understood.
+/// Words that need no unit.
 const WAVENUMBERS: [&str; 4] = ["wavenumber", "wave number", "wellenzahl", "kayser"];
 
 impl Unit {
@@ -77,12 +78,12 @@ impl Unit {
         }
     }
 
-    /// Whether it is the nm itself.
+    /// Whether the unit is the nm.
     pub fn is_nm(&self) -> bool {
         self.to_nm == ToNm::Times(1.0)
     }
 
-    /// The unit that the name of a column holds, if any.
+    /// The unit in the name of a column, if there is one.
     pub(super) fn of(name: &str) -> Option<Self> {
         // A power of ten belongs to the unit.
         if name.contains("10") {
@@ -94,21 +95,21 @@ impl Unit {
             let length = found.unwrap_or(Self::plain("cm", ToNm::Times(1e7)));
             return length.inverse();
         }
-        // Elsewhere A is area, ampere or absorbance.
+        // In other places A is area, ampere or absorbance.
         let alone = name.trim_matches(|c: char| !c.is_alphanumeric()) == "A";
         let angstrom = || alone || ["(A)", "[A]", "/ A", "/A"].iter().any(|a| name.contains(a));
         found.or_else(|| angstrom().then(|| Self::plain("Å", ToNm::Times(0.1))))
     }
 
-    /// Whether a column's values are per unit of something else than the nm: of volume too, which
-    /// is of area and of wavelength.
+    /// Whether a column's values are per unit of something other than nm; per volume counts, since
+    /// it is per area and per wavelength.
     pub(super) fn divides(name: &str) -> bool {
         words(name).any(|word| {
             let unit = word.plain_unit().or_else(|| word.angstrom());
             let Some(unit) = unit.filter(|unit| unit.name != "nm") else {
                 return false;
             };
-            // Lumens per metre are those of a whole strip of light.
+            // Lumens per meter are those of a strip of light.
             let length = ["m", "cm", "mm"].contains(&unit.name);
             match word.power() {
                 -3 => true,
@@ -127,7 +128,7 @@ impl Unit {
         }
     }
 
-    /// One over a length; one over anything else is nothing.
+    /// One over a length; None for one over anything else.
     fn inverse(self) -> Option<Self> {
         match self.to_nm {
             ToNm::Times(factor) => Some(Self {
@@ -147,7 +148,7 @@ impl fmt::Display for Unit {
     }
 }
 
-/// A run of letters and what stands around it.
+/// A run of letters, and the text around it.
 struct Word<'a> {
     before: &'a str,
     text: &'a str,
@@ -170,7 +171,7 @@ fn words(text: &str) -> impl Iterator<Item = Word<'_>> {
 }
 
 impl Word<'_> {
-    /// The unit that it is, inverted where it stands so.
+    /// The unit of this word, inverted if it is written so.
     fn unit(&self) -> Option<Unit> {
         let unit = self.plain_unit()?;
         if self.is_inverted() {
@@ -180,13 +181,13 @@ impl Word<'_> {
         }
     }
 
-    /// The unit that it is, or that the last word of its `camelCase` is.
+    /// The unit of this word, or of the last word of its `camelCase`.
     fn plain_unit(&self) -> Option<Unit> {
         let last = self.text.rfind(char::is_uppercase).unwrap_or(0);
         called(self.text).or_else(|| called(&self.text[last..]))
     }
 
-    /// The ångström that an A among other units is.
+    /// The ångström, for an A among other units.
     fn angstrom(&self) -> Option<Unit> {
         let before = self.before.trim_end_matches(TIMES);
         let follows = self.is_inverted() && before.ends_with(char::is_numeric);
@@ -199,7 +200,7 @@ impl Word<'_> {
         one_over.is_some_and(|before| before.trim_end().ends_with('1')) || self.power() == -1
     }
 
-    /// Whether it stands behind a stroke or `per`, alone or after other units, in a bracket or not.
+    /// Whether the word is behind a slash or `per`, alone or after other units, in brackets or not.
     fn is_divisor(&self) -> bool {
         let stroke = self.before.rsplit_once('/');
         let stroke = stroke.filter(|(_, between)| {
@@ -223,12 +224,12 @@ impl Word<'_> {
     }
 }
 
-/// The unit of a name.
+/// The unit of that name.
 fn called(word: &str) -> Option<Unit> {
     if let Some((name, to_nm)) = SYMBOLS.iter().find(|(symbol, _)| *symbol == word) {
         return Some(Unit::plain(name, *to_nm));
     }
-    // The Greek letter is the micro sign.
+    // The Greek letter counts as the micro sign.
     let lower = word.to_lowercase().replace('\u{3bc}', "\u{b5}");
     let is = |own: &&&str| lower == **own || own.len() >= 5 && lower.starts_with(**own);
     let found = WORDS

@@ -5,11 +5,12 @@ use super::sigmoid::{HALF_NM, WEIGHTS, quadratic, tinted, variable};
 use crate::color::cie::RANGE_NM;
 use crate::spectrum::{Beyond, MAX_VALUE, SpectrumError};
 
-/// How near a color's components its curve comes (times the greatest of them, if above 1).
+/// Largest error of the RGB of a curve (times the greatest component, if above 1).
 pub const RGB_ERROR: f64 = 1e-9;
 
-/// Colors whose components are all below this are fitted as brighter ones and scaled; those whose
-/// components are all within this of the greatest, as less pale ones and mixed with white.
+/// Threshold of dark and pale colors. Colors whose components are all below it are fitted as
+/// brighter ones and scaled; those whose components are all within it of the greatest, as less pale
+/// ones and mixed with white.
 pub const DARKEST: f64 = 1e-3;
 
 /// A smooth curve of a given color.
@@ -22,7 +23,7 @@ pub struct Uplift {
 
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Shape {
-    /// A grey: 1 everywhere.
+    /// A gray: 1 everywhere.
     Flat,
     /// 1 − tint·(1 − sigmoid of x).
     Sigmoid {
@@ -36,10 +37,10 @@ enum Shape {
 impl Uplift {
     /// The curve of a linear Rec. 709 color, each component from 0 to 1e300.
     ///
-    /// A color with a component above 1 is that of its greatest component 1, scaled: emission, not
-    /// reflectance. One whose components are all below [`DARKEST`] is scaled likewise. Linear RGB
-    /// under D65 is met within [`RGB_ERROR`], corners of the cube included; takes about 50 µs. The
-    /// narrowest features, of the corners, are 10 nm wide.
+    /// A color with a component above 1 is the color with its greatest component 1, scaled:
+    /// emission, not reflectance. One whose components are all below [`DARKEST`] is scaled
+    /// likewise. The linear RGB under D65 is met within [`RGB_ERROR`], including corners of the
+    /// cube; it takes about 50 µs. The narrowest features, those of the corners, are 10 nm wide.
     pub fn new(rgb: [f64; 3]) -> Result<Self, SpectrumError> {
         for (found, channel) in rgb.into_iter().zip(["red", "green", "blue"]) {
             if !(0.0..=MAX_VALUE).contains(&found) {
@@ -87,7 +88,7 @@ impl Uplift {
         }
     }
 
-    /// 360 to 830 nm, outside of which the curve is constant; `None` if it is so everywhere.
+    /// 360 to 830 nm, outside of which the curve is constant; None if it is constant everywhere.
     pub fn support_nm(&self) -> Option<[f64; 2]> {
         (self.shape != Shape::Flat || self.beyond == Beyond::Zero).then_some(RANGE_NM)
     }
@@ -110,8 +111,8 @@ impl Uplift {
         self.scale * tinted(tint, greatest)
     }
 
-    /// About the narrowest width in nm over which the curve changes by half of itself: the least
-    /// √(1 + x²)/|dx/dλ|; `None` if it is constant.
+    /// Approximate narrowest width in nm over which the curve changes by half of itself: the least
+    /// √(1 + x²)/|dx/dλ|; None if it is constant.
     pub fn feature_nm(&self) -> Option<f64> {
         let Shape::Sigmoid {
             coefficients: [a, b, c],

@@ -1,12 +1,12 @@
-//! The fit of a colour's curve: coefficients by the method of Levenberg and Marquardt.
+//! Fit of a color's curve: coefficients by the Levenberg-Marquardt method.
 
 use super::sigmoid::{WEIGHTS, quadratic, sigmoid};
 use crate::color::spaces::{Matrix, apply, inverse};
 
-/// Greatest weighted error at which a fit is done.
+/// Weighted error below which a fit ends.
 const GOOD_ENOUGH: f64 = 1e-10;
 
-/// Most steps of a fit.
+/// Number of steps of a fit at most.
 const MAX_STEPS: usize = 200;
 
 /// RGB of the sigmoid curve of given coefficients, and its derivatives by them (row: channel).
@@ -27,7 +27,7 @@ fn color_of(coefficients: [f64; 3]) -> ([f64; 3], Matrix) {
     (rgb, slopes)
 }
 
-/// Coefficients, and how far their color is from the one wanted.
+/// Coefficients, and the difference of their color from the target.
 #[derive(Clone, Copy)]
 struct Guess {
     coefficients: [f64; 3],
@@ -38,7 +38,8 @@ struct Guess {
 }
 
 impl Guess {
-    /// Errors count about as the sRGB transfer shows them: dark colors are fitted as well as light.
+    /// The weights make errors count about as the sRGB transfer shows them, so that dark colors are
+    /// fitted as well as light ones.
     fn new(coefficients: [f64; 3], target: [f64; 3]) -> Self {
         let (rgb, mut slopes) = color_of(coefficients);
         let weights = target.map(|part| (part + 0.01).powf(-0.6));
@@ -63,7 +64,7 @@ impl Guess {
         self.errors.iter().map(|error| error * error).sum()
     }
 
-    /// The coefficients that a step of Levenberg and Marquardt leads to (Marquardt 1963).
+    /// The coefficients after one step of Levenberg and Marquardt (Marquardt 1963).
     fn stepped(&self, damping: f64) -> [f64; 3] {
         let column = |k: usize| self.slopes.map(|row| row[k]);
         let product = |a: [f64; 3], b: [f64; 3]| (0..3).map(|i| a[i] * b[i]).sum::<f64>();
@@ -95,7 +96,7 @@ pub(super) fn fit(target: [f64; 3]) -> [f64; 3] {
     best.coefficients
 }
 
-/// The constant curve of the color's mean.
+/// The starting point: the constant curve of the color's mean.
 fn start(target: [f64; 3]) -> [f64; 3] {
     let mean = (target.iter().sum::<f64>() / 3.0).clamp(1e-6, 1.0 - 1e-6);
     [0.0, 0.0, (mean - 0.5) / (mean * (1.0 - mean)).sqrt()]

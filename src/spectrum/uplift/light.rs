@@ -1,15 +1,15 @@
-//! The curve of coloured light: any linear RGB, in nanoseconds.
+//! The curve of colored light: any linear RGB, in nanoseconds.
 //!
 //! Light of a color has no upper bound, and its spectrum should not change with its amount. So the
-//! color is parted into its greatest component and its hue, the components over that; half the
-//! hue, which leaves a smooth curve room above, is met by the sigmoid of
-//! [`Uplift`](super::Uplift), and twice the greatest component times that sigmoid is the curve
-//! (as for the illuminants of Pharr, Jakob and Humphreys, Physically Based Rendering, 4th edition,
-//! 4.6.6). Times D65 it has the color asked for; greys are constant; beyond 360 to 830 nm the
-//! end's value goes on. It is continuous in the color.
+//! color is split into its greatest component and its hue, the components relative to that. Half
+//! the hue, which leaves room above for a smooth curve, is met by the sigmoid of
+//! [`Uplift`](super::Uplift), and twice the greatest component times that sigmoid is the curve (as
+//! for the illuminants of Pharr, Jakob and Humphreys, Physically Based Rendering, 4th edition,
+//! 4.6.6). Times D65 it has the given color; grays are constant; beyond 360 to 830 nm the curve is
+//! constant. It is continuous in the color.
 //!
-//! Coefficients come from a table over hues, cubic between its entries, made when first asked for
-//! (0.2 s on one core). Each entry is fitted by itself: the same on any number of threads.
+//! Coefficients come from a table over hues, cubic between its entries, made on first use (0.2 s on
+//! one core). Each entry is fitted by itself: the same on any number of threads.
 
 use super::fit::fit;
 use super::sigmoid::{HALF_NM, MIDDLE_NM, quadratic, sigmoid, variable};
@@ -18,16 +18,16 @@ use crate::spectrum::cubic::catmull_rom;
 use rayon::prelude::*;
 use std::sync::LazyLock;
 
-/// Largest error of a component of the color, over the greatest of them, that the table brings
-/// beside that of f32.
+/// Largest error of a component of the color, relative to the greatest, that the table adds to that
+/// of f32.
 pub const HUE_ERROR: f64 = 3e-4;
 
 /// Entries along each side of a table.
 const SIDE: usize = 33;
 
-/// Coefficients for each of the components that can be the greatest, by the next component over
-/// the greatest (rows) and the one after (columns). Entry i stands at (i/(SIDE − 1))²: dark
-/// components change the curve most.
+/// Coefficients for each of the components that can be the greatest, by the next component over the
+/// greatest (rows) and the one after (columns). Entry i is at (i/(SIDE − 1))²: dark components
+/// change the curve most.
 static TABLE: LazyLock<Vec<[f32; 3]>> = LazyLock::new(|| {
     (0..3 * SIDE * SIDE)
         .into_par_iter()
@@ -55,7 +55,7 @@ pub struct ColoredLight {
 }
 
 impl ColoredLight {
-    /// Where the curve is the color's, nm; outside it is constant.
+    /// Range of the color's curve, nm; outside it is constant.
     pub const SUPPORT_NM: [f64; 2] = RANGE_NM;
 
     /// The curve of a linear Rec. 709 color, each component finite and at least 0.
@@ -74,7 +74,7 @@ impl ColoredLight {
         }
     }
 
-    /// What the shape is to be multiplied by.
+    /// The factor of the shape.
     pub fn factor(&self) -> f64 {
         self.factor
     }
@@ -99,7 +99,7 @@ impl ColoredLight {
     }
 }
 
-/// Coefficients of a hue, by Catmull and Rom's cubic in the roots of its lesser components.
+/// Coefficients of a hue, by the Catmull-Rom cubic in the roots of its lesser components.
 fn coefficients(greatest: usize, next: f64, last: f64) -> [f32; 3] {
     let cell = |value: f64| {
         let place = value.min(1.0).sqrt() * (SIDE - 1) as f64;
@@ -118,7 +118,7 @@ fn coefficients(greatest: usize, next: f64, last: f64) -> [f32; 3] {
     cubic(row, row_taps, across)
 }
 
-/// The cubic through four entries, the straight continuation standing in for one beyond the ends.
+/// The cubic through four entries; beyond the ends the table continues linearly.
 #[inline(always)]
 fn cubic(below: usize, taps: [f32; 4], entry: impl Fn(usize) -> [f32; 3]) -> [f32; 3] {
     let [from, to] = [entry(below), entry(below + 1)];

@@ -1,4 +1,4 @@
-//! The sigmoid of a quadratic over 360 to 830 nm, and what it adds to R, G and B under D65.
+//! The sigmoid of a quadratic over 360 to 830 nm, and its contributions to R, G and B under D65.
 
 use crate::color::cie::{RANGE_NM, xyz_bar};
 use crate::color::spaces::{RGB_FROM_XYZ, apply};
@@ -34,7 +34,7 @@ pub(super) fn tinted(tint: f64, x: f64) -> f64 {
     }
 }
 
-/// For each nm: u, and what a unit of S there adds to R, G and B.
+/// For each nm: u, and the contribution of a unit of S there to R, G and B.
 pub(super) static WEIGHTS: LazyLock<Vec<(f64, [f64; 3])>> = LazyLock::new(|| {
     let d65 = d65();
     let mut rows: Vec<(f64, [f64; 3])> = (360..=830)

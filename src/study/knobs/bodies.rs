@@ -1,4 +1,4 @@
-//! Precision of rays, and triangles of spheres.
+//! Knobs: precision of rays, and triangles of spheres.
 
 use super::Knob;
 use crate::scene::Scene;
@@ -6,14 +6,14 @@ use crate::shot::Precision;
 use crate::study::Start;
 use crate::study::displacement::{displacement, displacement_of_spheres};
 use crate::study::spheres;
-use crate::study::subject::{Bodies, Variant};
+use crate::study::timed_render::{Bodies, Variant};
 use crate::trace::Stage;
 use std::sync::Arc;
 
 /// Subdivisions of an icosahedron: 80 to 20480 triangles.
 const LEVELS: [u32; 5] = [1, 2, 3, 4, 5];
 const FINEST_LEVEL: u32 = 7;
-/// Of all spheres of a shot's meshes together, some 200 MB of them.
+/// Largest number of triangles of all spheres together, about 200 MB.
 const MOST_TRIANGLES: usize = 2_000_000;
 
 /// The knob `accuracy.tracing`.
@@ -51,7 +51,7 @@ pub(super) fn tracing(start: &Start<'_>) -> Knob {
     knob
 }
 
-/// How finely the shot's spheres are made of triangles.
+/// The tessellation of the shot's spheres.
 pub(super) fn tessellation(start: &Start<'_>) -> Knob {
     let mut knob = Knob::new(
         "tessellation",

@@ -1,10 +1,10 @@
-//! How far light is followed through mirrors and glass.
+//! Knobs: the depth to which light is followed through mirrors and glass.
 
 use super::Knob;
 use crate::frame::ActiveEffects;
 use crate::shot::MOST_BOUNCES;
 use crate::study::Start;
-use crate::study::subject::Variant;
+use crate::study::timed_render::Variant;
 
 const BOUNCES: [u32; 7] = [0, 1, 2, 3, 4, 8, 16];
 const CUTOFFS: [f64; 6] = [0.3, 0.1, 0.01, 1e-3, 1e-4, 1e-6];
@@ -86,7 +86,7 @@ pub(super) fn cutoff(start: &Start<'_>, called: &ActiveEffects) -> Knob {
     knob
 }
 
-/// Whether the image has no mirror and no glass, which is noted.
+/// Whether the image has neither mirror nor glass; adds a note then.
 fn no_branches(knob: &mut Knob, called: &ActiveEffects) -> bool {
     let none = !called.mirror && !called.refraction;
     if none {

@@ -1,5 +1,5 @@
-//! The knobs, and the settings of each that are compared. What an image leaves nothing to choose
-//! about has none.
+//! The knobs, and their settings to compare. A knob that makes no difference to an image has no
+//! settings.
 
 mod bodies;
 mod mirrors;
@@ -8,16 +8,16 @@ mod spectra;
 
 use super::Start;
 use super::displacement::Displacement;
-use super::subject::Variant;
+use super::timed_render::Variant;
 use crate::frame::ActiveEffects;
 use crate::render::View;
 
 pub(super) use spectra::{lines_seen, without_shift};
 
-/// Of views of a reference and of a setting, and their image's size.
+/// Displacement between the views of a reference and of a setting, for an image of this size.
 type Displaced = fn(&View<'_>, &View<'_>, [u32; 2]) -> Displacement;
 
-/// A knob, before anything is measured.
+/// A knob before it is measured.
 pub(super) struct Knob {
     pub(super) key: &'static str,
     pub(super) what: &'static str,
@@ -25,11 +25,11 @@ pub(super) struct Knob {
     pub(super) reference: &'static str,
     pub(super) note: Option<String>,
     pub(super) variants: Vec<Variant>,
-    /// By family, or one for all.
+    /// References, one per family or one for all.
     pub(super) references: Vec<Variant>,
-    /// How far surfaces move, where they do.
+    /// How displacements are measured, if surfaces move.
     pub(super) displacement: Option<Displaced>,
-    /// Whether it is the files that differ.
+    /// Whether the settings differ in the files only.
     pub(super) files: bool,
 }
 
@@ -48,7 +48,7 @@ impl Knob {
         }
     }
 
-    /// Which of its references a variant is measured against.
+    /// The index of the reference against which a variant is measured.
     pub(super) fn reference_of(&self, variant: &Variant) -> usize {
         let same = |reference: &Variant| reference.family == variant.family;
         self.references.iter().position(same).unwrap_or(0)

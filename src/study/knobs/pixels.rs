@@ -1,10 +1,10 @@
-//! Samples, filter and files of a picture.
+//! Knobs: samples, filter and files of an image.
 
 use super::Knob;
 use crate::render::Options;
 use crate::shot::{Depth, Filter, Format};
 use crate::study::Start;
-use crate::study::subject::Variant;
+use crate::study::timed_render::Variant;
 
 const SAMPLES: [u32; 7] = [1, 2, 4, 8, 16, 32, 64];
 const REFERENCE_SAMPLES: u32 = 256;

@@ -1,15 +1,15 @@
-//! How spectra are held, and how finely.
+//! Knobs: representation and resolution of spectra.
 
 use super::Knob;
 use crate::frame::{ActiveEffects, Frame};
 use crate::shot::{Accuracy, Shot, Spectra, Switch};
 use crate::spectrum::LineAxis;
 use crate::study::Start;
-use crate::study::subject::Variant;
+use crate::study::timed_render::Variant;
 
-/// Widths of lines, nm; the paper's is 5.
+/// Spacings of lines, nm; the paper's is 5.
 const LINES_NM: [f64; 4] = [10.0, 5.0, 2.5, 1.0];
-/// Wavelengths of the paper's splines.
+/// Wavelength counts of splines; the paper's is 81.
 const SPLINE_WAVELENGTHS: [u32; 7] = [8, 11, 16, 31, 61, 81, 121];
 const GRID_WAVELENGTHS: [u32; 7] = [8, 11, 21, 42, 84, 168, 336];
 
@@ -73,7 +73,7 @@ pub(super) fn spectra(start: &Start<'_>, called: &ActiveEffects) -> Knob {
     knob
 }
 
-/// Three numbers for a spectrum, and no shift, which they could not follow.
+/// The image with RGB colors and without shift, which RGB cannot represent.
 pub(in crate::study) fn without_shift(start: &Start<'_>, called: &ActiveEffects) -> Variant {
     let mut shot = Shot {
         accuracy: Accuracy {
@@ -97,7 +97,7 @@ pub(in crate::study) fn without_shift(start: &Start<'_>, called: &ActiveEffects)
     }
 }
 
-/// Whether the sensor's window holds spectral lines at this distance.
+/// Whether the sensor's window contains spectral lines at this spacing.
 pub(in crate::study) fn lines_seen(shot: &Shot, spacing_nm: f64) -> bool {
     LineAxis::new(spacing_nm)
         .within(shot.sensor.window)

@@ -1,11 +1,11 @@
-//! What to use: the cheapest settings whose colors are right enough, ready to be pasted.
+//! Recommendations: the cheapest settings with colors within a limit, ready to be pasted.
 
 use super::head::time_ratio;
 use super::quantity::number;
-use crate::study::findings::{Recommendation, Study};
+use crate::study::results::{Recommendation, Study};
 use maud::{Markup, html};
 
-/// The section; empty where nothing was swept.
+/// The section; empty if nothing was swept.
 pub(super) fn section(study: &Study) -> Markup {
     html! {
         section #advice {
@@ -14,9 +14,9 @@ pub(super) fn section(study: &Study) -> Markup {
                 p { "Nothing in this shot leaves a choice." }
             } @else {
                 p {
-                    "For each knob the cheapest of its settings whose ΔE2000 stays below a bound "
-                    "for 99 % of the pixels, the other knobs as the shot has them: each was "
-                    "measured alone, not all together. Times are relative to the shot as it is."
+                    "For each knob, the cheapest setting whose ΔE2000 stays below a limit in 99 % "
+                    "of the pixels. Each knob was measured alone, with the others at the values "
+                    "of the shot. Times are relative to the shot as it is."
                 }
                 div.scroll { table {
                     thead { tr {
@@ -61,8 +61,8 @@ fn is_current(study: &Study, advice: &Recommendation, setting: &str) -> bool {
     points.any(|point| point.current && point.setting == setting)
 }
 
-/// Lines of TOML below the header of their table, which a knob such as "accuracy.spectra" names
-/// before its last dot.
+/// Lines of TOML below the header of their table, which is the part of a knob such as
+/// "accuracy.spectra" before its last dot.
 fn pasted(knob: &str, toml: &str) -> String {
     match knob.rsplit_once('.') {
         Some((table, _)) if !toml.starts_with('[') => format!("[{table}]\n{toml}"),

@@ -1,21 +1,21 @@
-//! Error over time as a chart, on two logarithmic axes: a curve for each family of settings, coarse
-//! to fine, and rings for the Pareto front and for the shot as it is.
+//! Chart of error over time on two logarithmic axes: a curve for each family of settings, coarse to
+//! fine, and rings for the Pareto front and for the shot's own setting.
 
 use super::measure::{Error, Measure};
 use super::quantity::{number, time, unit_of_time};
 use crate::plot::{Axis, Color, Page, Panel, Plot, Remark, Series, Stroke, lay_out, svg};
-use crate::study::findings::{Point, Sweep};
+use crate::study::results::{Point, Sweep};
 
-/// A chart, and what should be said below it.
+/// A chart, and notes below it.
 #[derive(Debug)]
 pub(super) struct Chart {
     /// An `svg` element.
     pub(super) svg: String,
-    /// Sentences.
-    pub(super) remarks: Vec<String>,
+    /// Notes, one sentence each.
+    pub(super) notes: Vec<String>,
 }
 
-/// Which time a chart is over.
+/// The time on the horizontal axis.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Clock {
     Frame,
@@ -26,8 +26,8 @@ const PAGE: Page = Page {
     size: [1000.0, 440.0],
     font: 14.0,
 };
-/// Colours that no kind of colour vision confuses, after Okabe & Ito 2008, none too light for white
-/// paper.
+/// Colors that are distinct in all kinds of color vision, after Okabe & Ito 2008, none too light
+/// for white paper.
 const COLORS: [Color; 6] = [
     [0, 114, 178],
     [213, 94, 0],
@@ -38,14 +38,13 @@ const COLORS: [Color; 6] = [
 ];
 const FRONT: Color = [120, 120, 120];
 const CURRENT: Color = [200, 30, 30];
-/// Errors below this part of the greatest stand on the floor, as those of 0 do.
+/// Errors below this share of the greatest are drawn on the lower edge, as errors of 0 are.
 const DEPTH: f64 = 1e-14;
-/// Times of image and phase that differ by less are shown once.
+/// Relative difference below which the times of image and phase are shown once.
 const EQUAL_TIMES: f64 = 0.01;
 
-/// The chart over the time of the whole image, and, where that is another, over the time of the
-/// phase; none where no point has an error and a time. `id` tells their parts from others' on the
-/// page.
+/// The chart over the time of the whole image and, if that differs, over the time of the phase;
+/// none if no point has an error and a time. `id` keeps their parts apart from others on the page.
 pub(super) fn charts(sweep: &Sweep, id: &str) -> Vec<Chart> {
     let measure = Measure::of(sweep);
     let differs = |point: &Point| {
@@ -75,7 +74,7 @@ pub(super) fn families(sweep: &Sweep) -> Vec<&str> {
     families
 }
 
-/// The colour of a family.
+/// The color of a family.
 pub(super) fn color(sweep: &Sweep, family: &str) -> Color {
     let place = families(sweep).iter().position(|name| *name == family);
     COLORS[place.unwrap_or(0) % COLORS.len()]
@@ -84,7 +83,7 @@ pub(super) fn color(sweep: &Sweep, family: &str) -> Color {
 /// A point on the chart.
 struct Dot<'a> {
     point: &'a Point,
-    /// Of the table, counted from 1.
+    /// Its row in the table, counted from 1.
     row: usize,
     seconds: f64,
     error: Error,
@@ -97,7 +96,7 @@ struct Easel<'a> {
     dots: Vec<Dot<'a>>,
     x: Axis,
     y: Axis,
-    /// Seconds of the unit of the horizontal axis.
+    /// Seconds per unit of the horizontal axis.
     unit: f64,
 }
 
@@ -157,7 +156,7 @@ impl<'a> Easel<'a> {
         }
         Chart {
             svg: svg(&drawing),
-            remarks: self.remarks(),
+            notes: self.notes(),
         }
     }
 
@@ -177,7 +176,7 @@ impl<'a> Easel<'a> {
         series
     }
 
-    /// Only through errors that a logarithm has: a line to the floor would lead nowhere.
+    /// A line only through errors that have a logarithm: one to the lower edge would be misleading.
     fn line(&self, family: &str) -> Series {
         self.drawn(family, Stroke::Solid(1.8), |dot| {
             dot.point.family == family && matches!(dot.error, Error::Measured(_))
@@ -211,7 +210,7 @@ impl<'a> Easel<'a> {
         }
     }
 
-    /// The staircase below which no setting is.
+    /// The staircase of the Pareto front; no setting is below it.
     fn front(&self) -> Series {
         let best = self.dots.iter().filter(|dot| dot.point.pareto);
         let mut front: Vec<[f64; 2]> = best.map(|dot| self.at(dot)).collect();
@@ -232,9 +231,9 @@ impl<'a> Easel<'a> {
         }
     }
 
-    /// Where a dot stands, in values of the axes.
+    /// Position of a dot, in values of the axes.
     fn at(&self, dot: &Dot<'_>) -> [f64; 2] {
-        // Above the first value by less than can be seen, since what stands there is hidden.
+        // Slightly above the first value, because the axis hides values at its beginning.
         let floor = self.y.range[0] * (1.0 + 1e-6);
         let error = match dot.error {
             Error::Measured(value) => value.max(floor),
@@ -249,7 +248,7 @@ impl<'a> Easel<'a> {
             Error::Measured(value) => format!("error {} {}", number(value), self.measure.unit),
             Error::None if dot.point.errors.is_none() => "the reference".to_owned(),
             Error::None => "no error".to_owned(),
-            Error::Beyond => "an error that is no number".to_owned(),
+            Error::Beyond => "an infinite error".to_owned(),
         };
         Remark {
             label: dot.point.setting.clone(),
@@ -264,33 +263,33 @@ impl<'a> Easel<'a> {
         }
     }
 
-    fn remarks(&self) -> Vec<String> {
+    fn notes(&self) -> Vec<String> {
         let floored = |dot: &Dot<'_>| match dot.error {
             Error::Measured(value) => value <= self.y.range[0],
             other => other == Error::None,
         };
-        let mut remarks = Vec::new();
+        let mut notes = Vec::new();
         if self.dots.iter().any(floored) {
-            remarks.push(
-                "On the floor of the chart stands what has no error, or none that it can show."
+            notes.push(
+                "Points at the lower edge of the chart have no error, or one too small to show."
                     .to_owned(),
             );
         }
         if self.dots.iter().any(|dot| dot.error == Error::Beyond) {
-            remarks.push("At its ceiling stands what has an error beyond all numbers.".to_owned());
+            notes.push("Points at its upper edge have an infinite error.".to_owned());
         }
         let lacking = self.sweep.points.len() - self.dots.len();
         if lacking > 0 {
-            remarks.push(format!(
+            notes.push(format!(
                 "Settings without this error, found in the table only: {lacking}."
             ));
         }
-        remarks
+        notes
     }
 }
 
-/// From one decade below what was measured, if something stands on the floor, to one above, if
-/// something stands at the ceiling.
+/// The axis of errors: from one decade below the measured values, if a dot is at the lower edge, to
+/// one above, if a dot is at the upper edge.
 fn error_axis(measure: Measure, dots: &[Dot<'_>]) -> Axis {
     let has = |error: Error| dots.iter().any(|dot| dot.error == error);
     let measured = dots.iter().filter_map(|dot| match dot.error {

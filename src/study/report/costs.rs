@@ -1,10 +1,10 @@
-//! Where the time goes: phases, effects, and what the 1990 paper says of them.
+//! Where the time goes: phases, effects, and the statements of the 1990 paper.
 
 use super::quantity::{NOTHING, percent, time};
-use crate::study::findings::{EffectCost, Study};
+use crate::study::results::{EffectCost, Study};
 use maud::{Markup, html};
 
-/// The phases of the shot as it is, with bars.
+/// The phases of the unchanged shot, with bars.
 pub(super) fn phases(study: &Study) -> Markup {
     if study.phases.is_empty() {
         return html! {};
@@ -38,7 +38,7 @@ pub(super) fn phases(study: &Study) -> Markup {
     }
 }
 
-/// What each effect costs.
+/// The cost of each effect.
 pub(super) fn effects(study: &Study) -> Markup {
     if study.effects.is_empty() {
         return html! {};
@@ -46,8 +46,8 @@ pub(super) fn effects(study: &Study) -> Markup {
     html! {
         section #effects {
             h2 { "What each effect costs" }
-            p { "The image rendered with and without each effect, in turns: the median of their "
-                "ratios, and half of the range of them, without a tenth at either end." }
+            p { "The image rendered with and without each effect, alternately: the median of the "
+                "ratios, and half of their range without the outer tenth at either end." }
             div.scroll { table {
                 thead { tr {
                     th { "Effect" } th { "Called for" } th.n { "With" } th.n { "Without" }
@@ -68,25 +68,25 @@ pub(super) fn effects(study: &Study) -> Markup {
     }
 }
 
-/// What a cost and its spread say.
+/// A cost and its spread in words.
 fn verdict(effect: &EffectCost) -> &'static str {
     let hidden = effect.cost.abs() <= effect.spread;
     match (effect.called, hidden) {
         (false, true) => "not called for: 0 % within the spread",
-        (false, false) => "not called for, and yet beyond the spread",
+        (false, false) => "not called for, but beyond the spread",
         (true, true) => "0 % within the spread",
         (true, false) => "",
     }
 }
 
-/// The findings of the 1990 paper beside ours.
+/// The results of the 1990 paper beside ours.
 pub(super) fn paper(study: &Study) -> Markup {
     if study.paper.is_empty() {
         return html! {};
     }
     html! {
         section #paper {
-            h2 { "Beside the paper of 1990" }
+            h2 { "Comparison with the paper of 1990" }
             p { "Its section 6, on machines of its day; ours is a part of the time of everything "
                 "else." }
             div.scroll { table {

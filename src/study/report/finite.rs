@@ -1,9 +1,9 @@
-//! A study in numbers that every format can hold.
+//! A study whose numbers every format can hold.
 
-use crate::study::findings::{Errors, Percentiles, Study, Timing};
+use crate::study::results::{Errors, Percentiles, Study, Timing};
 
-/// The same study with [`f64::MAX`] for what is beyond all numbers or none, and its negative for
-/// what is below all: an error that cannot be told is the worst.
+/// The study with [`f64::MAX`] in place of infinity and NaN, and its negative in place of
+/// −infinity: an error that cannot be determined counts as the worst.
 pub(super) fn finite(study: &Study) -> Study {
     let mut study = study.clone();
     let Study {

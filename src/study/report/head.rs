@@ -1,11 +1,12 @@
-//! What stands above and below the findings: what was studied, on what, and how to read it.
+//! The parts of the page above and below the results: what was studied, on which machine, and how
+//! to read it.
 
 use crate::plot::STYLE;
-use crate::study::findings::Study;
 use crate::study::report::quantity::{number, percent, times};
+use crate::study::results::Study;
 use maud::{Markup, PreEscaped, html};
 
-/// The title, as it stands on the page and in the window's frame.
+/// The title, on the page and in the window's frame.
 fn title(study: &Study) -> &str {
     study.title.as_deref().unwrap_or(&study.shot)
 }
@@ -22,7 +23,7 @@ pub(super) fn head(study: &Study) -> Markup {
     }
 }
 
-/// What was studied, on what, and how far times can be trusted.
+/// The image, the machine, and how far the times can be trusted.
 pub(super) fn opening(study: &Study) -> Markup {
     let [width, height] = study.size;
     let machine = &study.machine;
@@ -50,7 +51,7 @@ fn noise(study: &Study) -> Markup {
     let noise = study.noise;
     html! {
         p.noise.warning[noise.too_noisy] {
-            "Equal work differed in time by " (percent(noise.spread))
+            "Times of equal work differed by " (percent(noise.spread))
             " (median of some images), and a second copy of the shot as it is took "
             (times(noise.duplicate)) " the time of the first. "
             @if noise.too_noisy {
@@ -67,10 +68,10 @@ fn counted(count: impl std::fmt::Display, noun: &str) -> String {
     format!("{count} {noun}{plural}")
 }
 
-/// How far a ratio of times is from 1 where a busy machine cannot tell it from 1.
+/// Smallest difference from 1 of a ratio of times that a busy machine can still tell.
 const NOT_TOLD_APART: f64 = 0.1;
 
-/// A ratio of times, marked where the machine was too busy to tell it from 1.
+/// A ratio of times, marked if the machine was too busy to tell it from 1.
 pub(super) fn time_ratio(study: &Study, ratio: f64) -> Markup {
     let alike = study.noise.too_noisy
         && (1.0 / (1.0 + NOT_TOLD_APART)..=1.0 + NOT_TOLD_APART).contains(&ratio);
@@ -80,7 +81,7 @@ pub(super) fn time_ratio(study: &Study, ratio: f64) -> Markup {
     }
 }
 
-/// What the words mean.
+/// The meaning of the terms.
 pub(super) fn legend() -> Markup {
     let delta_e = number(1.0);
     html! {
@@ -88,24 +89,25 @@ pub(super) fn legend() -> Markup {
             h2 { "How to read this" }
             dl {
                 dt { "ΔE2000" }
-                dd { "The difference of two colors as people see it (CIEDE2000). Below " (delta_e)
-                     " it is seen only side by side, below 0.5 hardly, below 0.1 never. It is of "
-                     "developed pixels before they are rounded to 8 bits. “99 %” is what 99 of "
-                     "100 pixels do not exceed." }
+                dd { "The visible difference of two colors (CIEDE2000). Below " (delta_e)
+                     " it is visible only side by side, below 0.5 hardly, below 0.1 never. It is "
+                     "measured on developed pixels before rounding to 8 bits. “99 %” is the value "
+                     "that 99 of 100 pixels do not exceed." }
                 dt { "Error of radiance" }
                 dd { "Root mean square of the difference of the sensor's channels, as a part of "
                      "that of the reference." }
                 dt { "Displacement" }
-                dd { "How far a surface is seen from where it should be, pixels; “mistaken” are "
-                     "pixels that see another surface." }
+                dd { "Distance between the place of a surface in the image and its exact place, in "
+                     "pixels; “mistaken” is the share of pixels that show another surface." }
                 dt { "Pareto front" }
                 dd { "Settings that no other beats: none is at least as exact and faster by more "
                      "than times of equal work differ. "
-                     "Ringed in the charts; the dashed staircase joins them. All others waste "
+                     "They have rings in the charts, joined by a dashed staircase. All others waste "
                      "time or exactness." }
                 dt { "Times" }
-                dd { "Of the whole image, prepared, traced, shaded, developed, encoded and "
-                     "written, by the clock on the wall; those of phases that threads share are divided by their number. "
+                dd { "Wall-clock time of the whole image: preparing, tracing, shading, developing, "
+                     "encoding and writing. Times of phases that threads share are divided by the "
+                     "number of threads. "
                      "The median of all renders, with the shortest and the longest." }
             }
         }

@@ -1,18 +1,18 @@
-//! Which error a chart shows, and where a point stands on it.
+//! The error that a chart shows, and the place of a point on its axis.
 
-use crate::study::findings::{Errors, Percentiles, Point, Sweep};
+use crate::study::results::{Errors, Percentiles, Point, Sweep};
 
-/// A way to tell how wrong a picture is.
+/// A measure of the error of an image.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Measure {
-    /// What stands at the axis.
+    /// Title of the axis.
     pub(super) label: &'static str,
-    /// In which unit; empty if in none.
+    /// Unit of the axis; empty if it has none.
     pub(super) unit: &'static str,
     of: fn(&Errors) -> Option<f64>,
 }
 
-/// What people see comes first.
+/// Measures, with visible differences first.
 const MEASURES: [Measure; 3] = [
     Measure {
         label: "ΔE2000, 99th percentile",
@@ -35,20 +35,20 @@ fn p99(percentiles: Percentiles) -> f64 {
     percentiles.p99
 }
 
-/// An error of a point, as far as a logarithmic axis can show it.
+/// An error of a point, for a logarithmic axis.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Error {
     /// Finite and above 0.
     Measured(f64),
-    /// None: the reference itself, or equal to it.
+    /// Zero: the reference itself, or equal to it.
     None,
-    /// Infinite, or no number.
+    /// Infinite or NaN.
     Beyond,
 }
 
 impl Measure {
-    /// The first measure by which the points of a sweep differ from its reference; where they do
-    /// by none, the first that they have.
+    /// The first measure by which points of the sweep differ from its reference; if there is none,
+    /// the first that they have.
     pub(super) fn of(sweep: &Sweep) -> Self {
         let errors = || sweep.points.iter().filter_map(|p| p.errors.as_ref());
         let has = |m: &&Self| errors().any(|e| (m.of)(e).is_some());

@@ -1,10 +1,10 @@
 //! The report of a study as three texts: a page for people ([`html`]), a table for spreadsheets
 //! ([`csv()`]) and everything for programs ([`json`]).
 //!
-//! The page is one file without scripts that asks for nothing else, its charts are drawings within
-//! it, and it is well-formed XML as well as HTML. The table has one row for each point of each
-//! sweep; effects, phases and the paper's findings are in the page and the JSON only. Equal studies
-//! give equal bytes.
+//! The page is one file without scripts and without references to other files; its charts are
+//! drawings within it, and it is well-formed XML as well as HTML. The table has one row for each
+//! point of each sweep; effects, phases and the paper's results are in the page and the JSON only.
+//! Equal studies give equal bytes.
 
 mod advice;
 mod chart;
@@ -19,10 +19,10 @@ mod sweep;
 
 pub use spreadsheet::csv;
 
-use super::findings::Study;
+use super::results::Study;
 use maud::{DOCTYPE, html as markup};
 
-/// The page, a whole HTML file.
+/// The page as a whole HTML file.
 pub fn html(study: &Study) -> String {
     let page = markup! {
         (DOCTYPE)
@@ -46,9 +46,9 @@ pub fn html(study: &Study) -> String {
     page.into_string()
 }
 
-/// Everything, with the names of [`Study`]'s fields. What is no number there, or beyond all
-/// numbers, is the greatest that f64 holds, since JSON has no word for it; `null` stands only for
-/// what does not exist.
+/// All results as JSON, with the names of [`Study`]'s fields. Numbers that are not finite are
+/// written as the greatest f64, since JSON has no word for them; `null` means only that there is no
+/// value.
 pub fn json(study: &Study) -> String {
     let study = finite::finite(study);
     let mut text =

@@ -1,10 +1,10 @@
-//! Quantities of a study as people read them.
+//! Quantities of a study as text.
 
 pub(super) use crate::plot::quantity::*;
-use crate::study::findings::Timing;
+use crate::study::results::Timing;
 
-/// The range of equal renders in the unit of their median, such as 4.0–4.3; None where there was
-/// but one.
+/// The range of equal renders in the unit of their median, such as 4.0–4.3; None if there was only
+/// one.
 pub(super) fn range(timing: Timing) -> Option<String> {
     let (unit, _) = unit_of_time(timing.median);
     (timing.least < timing.greatest).then(|| {

@@ -1,21 +1,21 @@
-//! The settings of a sweep as a table, numbered as in its charts.
+//! The settings of a sweep as a table, with the numbers of its charts.
 
 use super::chart::color;
 use super::head::time_ratio;
 use super::quantity::{NOTHING, bytes, mebibytes, number, percent, range, time};
-use crate::study::findings::{Errors, Percentiles, Point, Study, Sweep};
+use crate::study::results::{Errors, Percentiles, Point, Study, Sweep};
 use maud::{Markup, html};
 
-/// A column of numbers. Those without a value in any row are left out.
+/// A column of numbers. A column without any value is left out.
 struct Column {
     title: &'static str,
     cell: fn(&Context<'_>, &Point) -> Option<Markup>,
 }
 
-/// What a cell needs to know beside its point.
+/// What a cell needs besides its point.
 struct Context<'a> {
     study: &'a Study,
-    /// Seconds of the shot as it is.
+    /// Seconds of the unchanged shot.
     current: Option<f64>,
 }
 

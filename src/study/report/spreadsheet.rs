@@ -1,11 +1,11 @@
-//! The points of a study as CSV (RFC 4180, with a header): a row for each setting of each sweep.
+//! The points of a study as CSV (RFC 4180, with a header): one row for each setting of each sweep.
 //!
-//! Times are seconds, memory MiB, displacements pixels, errors and bounds relative; "true" and
-//! "false" are flags, and an empty field is what does not exist. Effects and phases are in the JSON
-//! only.
+//! Times are in seconds, memory in MiB, displacements in pixels; errors and bounds are relative.
+//! Flags are "true" or "false"; an empty field means that there is no value. Effects and phases are
+//! in the JSON only.
 
 use super::finite::finite;
-use crate::study::findings::{Percentiles, Point, Study, Sweep};
+use crate::study::results::{Percentiles, Point, Study, Sweep};
 
 /// The header, in the order of [`fields`].
 const HEADER: [&str; 24] = [
@@ -35,8 +35,8 @@ const HEADER: [&str; 24] = [
     "reference",
 ];
 
-/// The table. Numbers can be read back to the last bit; what is none, or beyond all, is the
-/// greatest that f64 holds.
+/// The table. Numbers can be read back to the last bit; one that is not finite is written as the
+/// greatest f64.
 pub fn csv(study: &Study) -> String {
     let study = finite(study);
     let mut writer = csv::Writer::from_writer(Vec::new());

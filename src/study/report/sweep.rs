@@ -4,10 +4,10 @@ use super::chart::charts;
 use super::head::time_ratio;
 use super::quantity::percent;
 use super::settings;
-use crate::study::findings::{Halving, Study, Sweep};
+use crate::study::results::{Halving, Study, Sweep};
 use maud::{Markup, PreEscaped, html};
 
-/// The section of a sweep, the `place`th of the page, counted from 1.
+/// The section of a sweep, number `place` of the page, counted from 1.
 pub(super) fn section(study: &Study, sweep: &Sweep, place: usize) -> Markup {
     let id = format!("sweep-{place}");
     html! {
@@ -24,7 +24,7 @@ pub(super) fn section(study: &Study, sweep: &Sweep, place: usize) -> Markup {
                 @for chart in charts(sweep, &id) {
                     figure {
                         (PreEscaped(chart.svg))
-                        @if !chart.remarks.is_empty() { figcaption { (chart.remarks.join(" ")) } }
+                        @if !chart.notes.is_empty() { figcaption { (chart.notes.join(" ")) } }
                     }
                 }
                 (settings::table(study, sweep))
@@ -34,7 +34,7 @@ pub(super) fn section(study: &Study, sweep: &Sweep, place: usize) -> Markup {
     }
 }
 
-/// With a capital and a full stop, as far as it has none.
+/// The words as a sentence, with capital letter and full stop.
 fn sentence(words: &str) -> String {
     let words = words.trim();
     let mut rest = words.chars();
@@ -51,7 +51,7 @@ fn sentence(words: &str) -> String {
     format!("{capital}{}{stop}", rest.as_str())
 }
 
-/// What halving the error costs, between neighbours of a family.
+/// The table of prices for halving the error, between neighbors of a family.
 fn prices(study: &Study, halving: &[Halving]) -> Markup {
     html! {
         h3 { "To halve the error, pay this" }

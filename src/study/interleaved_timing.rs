@@ -1,33 +1,33 @@
-//! Variants timed against each other: in rounds, so that a machine that slows down meanwhile does
-//! so for all of them.
+//! Timing of variants against each other, in rounds, so that a machine that slows down affects all
+//! of them equally.
 
 use super::StudyError;
-use super::findings::Timing;
-use super::subject::{Run, Subject, Variant};
+use super::results::Timing;
+use super::timed_render::{Run, Subject, Variant};
 
-/// A variant that takes longer than this, seconds, is rendered in the first [`FEW`] rounds only.
+/// Seconds above which a variant is rendered in the first [`FEW`] rounds only.
 const LONG: f64 = 2.0;
 const FEW: u32 = 3;
-/// One that takes longer than this, in the first round only.
+/// Seconds above which a variant is rendered in the first round only.
 const VERY_LONG: f64 = 20.0;
 
-/// All renders of a variant.
+/// Measurements of all renders of a variant.
 pub(super) struct Measured {
     pub(super) seconds: Vec<f64>,
-    /// By round and phase.
+    /// Seconds by round and phase.
     pub(super) phases: Vec<[f64; 9]>,
     pub(super) memory_mib: Option<f64>,
-    /// Of its files together.
+    /// Size of its files together.
     pub(super) file_bytes: u64,
 }
 
 impl Measured {
-    /// Time of the whole image.
+    /// Times of the whole image.
     pub(super) fn frame(&self) -> Timing {
         timing(self.seconds.clone())
     }
 
-    /// Time of a phase.
+    /// Times of a phase.
     pub(super) fn phase(&self, phase: usize) -> Timing {
         timing(self.phases.iter().map(|phases| phases[phase]).collect())
     }
@@ -51,8 +51,8 @@ impl Measured {
     }
 }
 
-/// Renders every variant `rounds` times, round by round. `look` is shown the first render of each,
-/// since every other has the same pixels and files; none is kept, so that memory is that of one.
+/// Renders every variant `rounds` times, round by round. `look` gets the first render of each; the
+/// others have the same pixels and files. No render is kept, so that memory is that of one.
 pub(super) fn measure<T>(
     variants: &[Variant],
     subject: &Subject,
@@ -75,7 +75,7 @@ pub(super) fn measure<T>(
     Ok(measured)
 }
 
-/// How many rounds a variant takes part in, by the seconds of its first.
+/// Number of rounds in which a variant takes part, from the seconds of its first.
 pub(super) fn most_rounds(rounds: u32, first: Option<f64>) -> u32 {
     match first {
         Some(seconds) if seconds > VERY_LONG => 1,
@@ -84,7 +84,7 @@ pub(super) fn most_rounds(rounds: u32, first: Option<f64>) -> u32 {
     }
 }
 
-/// Three numbers of some times; all 0 if there are none.
+/// Median, least and greatest of times; all 0 if there are none.
 pub(super) fn timing(mut seconds: Vec<f64>) -> Timing {
     seconds.sort_by(f64::total_cmp);
     let (Some(&least), Some(&greatest)) = (seconds.first(), seconds.last()) else {
@@ -97,7 +97,7 @@ pub(super) fn timing(mut seconds: Vec<f64>) -> Timing {
     }
 }
 
-/// The middle of ascending numbers, of which there is at least one.
+/// The median of ascending numbers, of which there is at least one.
 pub(super) fn median(ascending: &[f64]) -> f64 {
     let half = ascending.len() / 2;
     if ascending.len().is_multiple_of(2) {

@@ -1,13 +1,13 @@
-//! What stands above the panels: caption and legend.
+//! Caption and legend: the lines above the panels.
 
 use super::drawing::{Anchor, Group, Mark, Shape, Text};
 use super::marks::{CHARACTER, INK, Page, label, strokes};
 use super::{Plot, Series, Stroke};
 
-/// The lines above everything, and where they end.
+/// The caption, and the height at which it ends.
 pub(super) fn caption(plot: &Plot, page: Page) -> (Group, f64) {
     let size = page.font * 1.1;
-    // A bold line is a little wider.
+    // Bold text is a little wider.
     let most = ((page.size[0] - 2.0 * page.font) / (size * CHARACTER * 1.05)) as usize;
     let mut base = 0.4 * page.font;
     let mut marks = Vec::new();
@@ -24,7 +24,7 @@ pub(super) fn caption(plot: &Plot, page: Page) -> (Group, f64) {
     (Group { id, marks }, base)
 }
 
-/// Cut in the middle: what matters may stand at the end.
+/// The line, shortened in the middle, since both ends may matter.
 fn shortened(line: &str, most: usize) -> String {
     let characters: Vec<char> = line.chars().collect();
     if characters.len() <= most {
@@ -36,7 +36,7 @@ fn shortened(line: &str, most: usize) -> String {
     characters[..head].iter().chain(&['…']).chain(end).collect()
 }
 
-/// Each name once, in rows as long as the page is wide, and where they end.
+/// The legend, each name once, in rows of the page's width; and the height at which it ends.
 pub(super) fn legend(plot: &Plot, start: [f64; 2], page: Page) -> (Group, f64) {
     let font = page.font;
     let mut named: Vec<&Series> = Vec::new();

@@ -5,10 +5,10 @@
 //! lines; here one is read by its means over the axis' spacing, which is right as far as its bands
 //! have nothing to do with those of the other.
 
-use super::bake::{Reflecting, Settings};
-use super::curves::CurveShader;
-use super::exact::Reading;
-use super::shader;
+use super::super::curves::CurveShader;
+use super::super::integrand::Reading;
+use super::super::material::ReflectorTables;
+use super::super::settings::Settings;
 use crate::scene::{Light, Material, Scene};
 use crate::shot::Spectra;
 use crate::spectrum::{Fine, LogAxis, Spectrum};
@@ -60,10 +60,7 @@ const MOST_WAVELENGTHS: f64 = 4096.0;
 ///
 /// Costs next to nothing where lamps or surfaces have nothing narrow.
 pub fn unresolved(scene: &Scene, settings: &Settings<'_>) -> Vec<Unresolved> {
-    let axis = LogAxis::new(
-        settings.sensor.window,
-        settings.accuracy.wavelengths as usize,
-    );
+    let axis = settings.axis();
     let grid = matches!(settings.accuracy.spectra, Spectra::Grid | Spectra::Spline);
     let is_fine = |spectrum: &Spectrum| Fine::is_worth_a_look(axis, spectrum);
     let lamps = scene.lights.iter().any(|light| is_fine(&light.spectrum));
@@ -71,17 +68,18 @@ pub fn unresolved(scene: &Scene, settings: &Settings<'_>) -> Vec<Unresolved> {
     if !settings.called.doppler || !grid || !lamps || !surfaces {
         return Vec::new();
     }
-    let exact = shader::quadrature(settings.sensor);
-    let sensor = shader::sensor(settings.sensor, axis);
-    let shader = CurveShader::new(scene, settings, sensor, &exact);
+    let exact = settings.quadrature();
+    let shader = CurveShader::new(scene, settings, settings.sensor(), &exact);
     let mut pairs = Vec::new();
-    for (material, curves) in scene.materials.iter().zip(&shader.surfaces) {
+    for (material, curves) in scene.materials.iter().zip(&shader.materials) {
         for emitter in 0..shader.emitters.len() {
-            let mut own = scene.lights.iter().zip(&shader.lamps);
-            let moving = own.find(|(light, lamp)| lamp.0 == emitter && moves(scene, light));
-            let Some((light, _)) = moving else { continue };
-            let errors = curves.reflecting().flatten();
-            let errors = errors.filter_map(|term| shader.lost(term, emitter));
+            let mut own = scene.lights.iter().enumerate();
+            let moving = own.find(|(index, light)| {
+                shader.walk.emitter_of(*index) == emitter && moves(scene, light)
+            });
+            let Some((_, light)) = moving else { continue };
+            let lobes = curves.reflectors().iter();
+            let errors = lobes.filter_map(|lobe| shader.lost(lobe, emitter));
             let error = errors.fold(0.0, f64::max);
             if error > TOLD {
                 pairs.push(Unresolved {
@@ -101,9 +99,8 @@ pub fn unresolved(scene: &Scene, settings: &Settings<'_>) -> Vec<Unresolved> {
 
 /// The spectra of what a material reflects of lamps.
 fn reflectances(material: &Material) -> impl Iterator<Item = &Spectrum> {
-    let highlight = material.highlight.as_ref().map(|h| &h.reflectance);
-    let terms = material.diffuse.iter().chain(highlight);
-    terms.map(|term| &*term.spectrum)
+    let lobes = material.bsdf.non_specular().iter();
+    lobes.map(|lobe| &*lobe.reflectance.spectrum)
 }
 
 /// Whether a lamp and some body are on worldlines of their own.
@@ -122,16 +119,16 @@ fn enough<'a>(axis: LogAxis, spectra: impl Iterator<Item = &'a Spectrum>) -> f64
 impl CurveShader {
     /// By how much the light of a lamp on a term is off where the two do not share their shift; None
     /// where it is integrated.
-    fn lost(&self, term: &Reflecting, emitter: usize) -> Option<f64> {
+    fn lost(&self, lobe: &ReflectorTables, emitter: usize) -> Option<f64> {
         let light = &self.emitters[emitter].curve;
-        let readings = [&term.reflectance, light].map(|curve| Reading { curve, shift: 1.0 });
+        let readings = [&lobe.reflectance, light].map(|curve| Reading { curve, shift: 1.0 });
         if readings
             .iter()
             .any(|reading| reading.curve.narrow().is_none())
         {
             return None;
         }
-        let exact = term.tables[emitter].as_ref()?.at(0.0);
+        let exact = lobe.tables[emitter].as_ref()?.at(0.0);
         let found = self.apart(&readings[0], &readings[1])?;
         let greatest = exact.into_iter().fold(f64::MIN_POSITIVE, f64::max);
         let off = (0..3).map(|c| (found[c] - exact[c]).abs() / greatest);

@@ -1,12 +1,13 @@
-//! Light of lamps on a surface, under the shifts of both.
+//! Channels of lamps on a surface, under the shifts of both.
 
-use super::bake::MaterialCurves;
-use super::curve::Curve;
-use super::curves::{CurveShader, add};
-use super::exact::Reading;
-use super::received::finite;
-use super::shader::ShadeScratch;
-use crate::trace::Lit;
+use super::super::curve::Curve;
+use super::super::curves::CurveShader;
+use super::super::integrand::Reading;
+use super::super::material::{MaterialCurves, ReflectorTables};
+use super::super::received::{Doppler, finite};
+use super::super::scratch::ShadeScratch;
+use super::super::table::add;
+use super::super::walk::Lamps;
 
 /// The shifts of a surface's reflectance and of a lamp's light to the camera, and their logarithms.
 struct Shifts {
@@ -19,71 +20,74 @@ fn any_narrow(one: &Curve, other: &Curve) -> bool {
 }
 
 impl CurveShader {
-    /// Light of the surface's lamps. Those that share the surface's shift are summed by emitter,
-    /// so that each table is read once.
+    /// Light that a surface reflects of lamps. Those that share the surface's shift are summed by
+    /// emitter, so that each table is read once.
     pub(super) fn lamps_xyz(
         &self,
-        lamps: &[Lit],
-        doppler: f64,
-        surface: &MaterialCurves,
+        material: &MaterialCurves,
+        doppler: Doppler,
+        lamps: Lamps<'_>,
         scratch: &mut ShadeScratch,
     ) -> [f64; 3] {
         let mut sum = [0.0; 3];
-        let shift = self.received.shift(doppler);
+        let shift = doppler.shift();
         let ln_shift = shift.ln();
-        scratch.comoving.clear();
-        scratch.comoving.resize(self.emitters.len(), [0.0; 2]);
-        for lit in lamps {
-            let (emitter, scale) = self.lamps[lit.light as usize];
-            let scale = scale * self.received.irradiance(lit.doppler);
-            let shares = [scale * lit.diffuse, scale * lit.highlight].map(finite);
-            let lamp_shift = self.received.shift(lit.doppler);
+        let lobes = material.reflectors();
+        let mut comoving = std::mem::take(&mut scratch.comoving);
+        comoving.clear();
+        comoving.resize(self.emitters.len() * lobes.len(), 0.0);
+        for lamp in lamps.iter() {
+            let emitter = lamp.emitter;
+            let scale = lamp.scale * lamp.doppler.irradiance();
+            let shares = lamp.weights.iter().map(|weight| finite(scale * weight));
+            let lamp_shift = lamp.doppler.shift();
             let shared = lamp_shift == 1.0 || self.emitters[emitter].curve.constant().is_some();
-            let mut terms = surface.reflecting().flatten();
-            if shared && terms.all(|term| term.tables[emitter].is_some()) {
-                scratch.comoving[emitter][0] += shares[0];
-                scratch.comoving[emitter][1] += shares[1];
+            if shared && lobes.iter().all(|lobe| lobe.tables[emitter].is_some()) {
+                let sums = &mut comoving[emitter * lobes.len()..];
+                sums.iter_mut()
+                    .zip(shares)
+                    .for_each(|(sum, share)| *sum += share);
             } else {
                 let shifts = Shifts {
                     factors: [shift, shift * lamp_shift],
                     ln: [ln_shift, ln_shift + lamp_shift.ln()],
                 };
-                let xyz = self.lamp_xyz(surface, emitter, shares, &shifts, scratch);
+                let xyz = self.lamp_xyz(lobes.iter().zip(shares), emitter, &shifts, scratch);
                 add(&mut sum, xyz, 1.0);
             }
         }
-        for (emitter, shares) in scratch.comoving.iter().enumerate() {
-            for (term, share) in surface.reflecting().zip(shares) {
-                if let Some(reflecting) = term
-                    && let Some(table) = &reflecting.tables[emitter]
+        let emitters = comoving.chunks_exact(lobes.len().max(1));
+        for (emitter, shares) in emitters.enumerate() {
+            for (lobe, share) in lobes.iter().zip(shares) {
+                if let Some(table) = &lobe.tables[emitter]
                     && *share > 0.0
                 {
                     add(&mut sum, table.at(ln_shift), finite(*share));
                 }
             }
         }
-        let power = self.received.radiance(doppler);
+        scratch.comoving = comoving;
+        let power = doppler.radiance();
         sum.map(|v| v * power)
     }
 
     /// Light of one lamp that moves against the surface: two shifts, of reflectance and emitter.
-    fn lamp_xyz(
+    /// Lobes come with their shares of the emitter's light.
+    fn lamp_xyz<'a>(
         &self,
-        surface: &MaterialCurves,
+        lobes: impl Iterator<Item = (&'a ReflectorTables, f64)>,
         emitter: usize,
-        shares: [f64; 2],
         shifts: &Shifts,
         scratch: &mut ShadeScratch,
     ) -> [f64; 3] {
         let mut sum = [0.0; 3];
         let [ln_surface, ln_lamp] = shifts.ln;
         let emitter = &self.emitters[emitter];
-        for (term, share) in surface.reflecting().zip(shares) {
-            let Some(reflecting) = term else { continue };
+        for (lobe, share) in lobes {
             if share <= 0.0 {
                 continue;
             }
-            let reflectance = &reflecting.reflectance;
+            let reflectance = &lobe.reflectance;
             let xyz = match (
                 reflectance.constant(),
                 reflectance.baked(),
@@ -138,37 +142,5 @@ impl CurveShader {
         let at = |node| smooth.at_node(ln_own, node, |node| narrow.wavelength_nm(node));
         let [shape, _] = scratch.buffers(self.sensor.axis().count());
         narrow.times(ln_shift, at, shape, |shape| smooth.read(shift, shape))
-    }
-
-    /// Adds the spectral radiance that one lamp makes of a surface.
-    pub(super) fn add_lamp(
-        &self,
-        surface: &MaterialCurves,
-        doppler: f64,
-        lit: &Lit,
-        out: &mut [f64],
-        scratch: &mut ShadeScratch,
-    ) {
-        let (emitter, scale) = self.lamps[lit.light as usize];
-        let [light, reflected] = scratch.buffers(out.len());
-        let shift = self.received.shift(doppler);
-        let peak = self.emitters[emitter]
-            .curve
-            .read(shift * self.received.shift(lit.doppler), light);
-        let factor =
-            scale * peak * self.received.radiance(doppler) * self.received.irradiance(lit.doppler);
-        for (term, share) in [
-            (&surface.diffuse, lit.diffuse),
-            (&surface.highlight, lit.highlight),
-        ] {
-            if let Some(reflecting) = term
-                && share > 0.0
-            {
-                let factor = finite(factor * share * reflecting.reflectance.read(shift, reflected));
-                for ((out, light), reflected) in out.iter_mut().zip(&*light).zip(&*reflected) {
-                    *out += factor * f64::from(light * reflected);
-                }
-            }
-        }
     }
 }

@@ -1,17 +1,17 @@
-//! What mirrors and glass leave of light on its way to the camera.
+//! The share of a node's light that mirrors and glass leave on its way to the camera.
 //!
-//! Each surface's reflectance is read under the shift between that surface and the camera, and
-//! they are multiplied wavelength by wavelength. While all of them are the same everywhere, as
-//! those of plain mirrors are, the product is one number.
+//! Each surface's reflectance is read under the shift between that surface and the camera; they are
+//! multiplied wavelength by wavelength. While all of them are the same at every wavelength, as those
+//! of plain mirrors are, the product is one number.
 
-use super::curve::Curve;
-use super::received::finite;
-use crate::trace::Branch;
+use super::super::curve::Curve;
+use super::super::received::finite;
+use super::super::walk::Passage;
 
-/// The ways of a tree's nodes, in their order.
+/// Throughputs of a tree's nodes, in their order.
 #[derive(Default)]
-pub(super) struct Passages {
-    entries: Vec<Passage>,
+pub(crate) struct Throughputs {
+    entries: Vec<Throughput>,
     /// Shapes of those that are not the same at all wavelengths, one after the other.
     shapes: Vec<f32>,
     /// Wavelengths of each.
@@ -19,13 +19,14 @@ pub(super) struct Passages {
 }
 
 #[derive(Clone, Copy)]
-struct Passage {
+struct Throughput {
     factor: f64,
     /// Where its shape starts; None where it is 1 everywhere.
     shape: Option<usize>,
 }
 
-impl Passages {
+impl Throughputs {
+    /// None yet, over `count` wavelengths.
     pub(super) fn new(count: usize) -> Self {
         Self {
             count,
@@ -33,33 +34,27 @@ impl Passages {
         }
     }
 
+    /// The same, keeping the memory.
     pub(super) fn clear(&mut self, count: usize) {
         self.entries.clear();
         self.shapes.clear();
         self.count = count;
     }
 
-    /// The way of what the camera sees directly.
-    pub(super) fn start(&mut self) {
-        self.entries.push(Passage {
+    /// Adds that of a node which the camera sees directly.
+    pub(super) fn push_direct(&mut self) {
+        self.entries.push(Throughput {
             factor: 1.0,
             shape: None,
         });
     }
 
-    /// The way of what is seen by a branch, through a surface of reflectance `curve` that is
-    /// shifted by `shift`.
-    pub(super) fn go_on(&mut self, branch: &Branch, curve: Option<&Curve>, shift: f64) {
-        let before = self.entries[branch.parent as usize];
-        let Some(curve) = curve else {
-            return self.entries.push(Passage {
-                factor: 0.0,
-                shape: None,
-            });
-        };
-        let factor = before.factor * branch.share;
+    /// Adds that of a node which is seen in a surface of reflectance `curve`.
+    pub(super) fn push(&mut self, passage: &Passage, curve: &Curve) {
+        let before = self.entries[passage.parent];
+        let factor = before.factor * passage.share;
         if let Some(grey) = curve.constant() {
-            return self.entries.push(Passage {
+            return self.entries.push(Throughput {
                 factor: factor * grey,
                 ..before
             });
@@ -67,27 +62,27 @@ impl Passages {
         let start = self.shapes.len();
         self.shapes.resize(start + self.count, 0.0);
         let (earlier, own) = self.shapes.split_at_mut(start);
-        let peak = curve.read(shift, own);
+        let peak = curve.read(passage.doppler.shift(), own);
         if let Some(shape) = before.shape {
             for (own, earlier) in own.iter_mut().zip(&earlier[shape..]) {
                 *own *= earlier;
             }
         }
-        self.entries.push(Passage {
+        self.entries.push(Throughput {
             factor: factor * peak,
             shape: Some(start),
         });
     }
 
-    /// What the last way leaves of any light, if it is the same at all wavelengths.
+    /// The last one, if it is the same at all wavelengths.
     pub(super) fn last_grey(&self) -> Option<f64> {
         let last = self.entries.last()?;
         last.shape.is_none().then_some(last.factor)
     }
 
-    /// Weighs spectral radiance by the last way; held finite first, as nothing of infinitely much
-    /// would be no number.
-    pub(super) fn weigh_last(&self, radiance: &mut [f64]) {
+    /// Multiplies spectral radiance by the last one. The radiance is made finite first: infinitely
+    /// much times 0 would not be a number.
+    pub(super) fn weigh_by_last(&self, radiance: &mut [f64]) {
         let Some(last) = self.entries.last() else {
             return;
         };
@@ -108,21 +103,16 @@ impl Passages {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::trace::Term;
 
     #[test]
     fn nothing_of_infinitely_much_light_is_nothing() {
-        let mut passages = Passages::new(1);
-        passages.start();
-        let branch = Branch {
-            parent: 0,
-            term: Term::Mirror,
-            share: 1.0,
-            doppler: 1.0,
-        };
-        passages.go_on(&branch, None, 1.0);
+        let mut throughputs = Throughputs::new(1);
+        throughputs.entries.push(Throughput {
+            factor: 0.0,
+            shape: None,
+        });
         let mut light = [f64::INFINITY];
-        passages.weigh_last(&mut light);
+        throughputs.weigh_by_last(&mut light);
         assert_eq!(light, [0.0]);
     }
 }

@@ -1,28 +1,28 @@
-//! A plot small enough to stand in a picture: one panel, with as much around its curves as can be
-//! read at that size.
+//! A compact plot for an inset in an image: one panel, with as much around its curves as is legible
+//! at that size.
 //!
-//! No type is smaller than [`LEAST_TYPE`]. Where an inset is less than so many lines of type high,
-//! it first loses its legend and the names of the axes, then its caption, and last its ticks. Units
-//! stay as long as ticks do.
+//! No text is smaller than [`LEAST_TYPE`]. As an inset gets lower, it first loses its legend and
+//! the names of the axes, then its caption, and last its ticks. Units stay as long as ticks do.
 
 use super::drawing::{Anchor, Drawing, Group, Mark, Shape, Text};
-use super::heading::legend;
+use super::legend::legend;
 use super::marks::{CHARACTER, PAPER, Page, Rect, label};
-use super::sheet::{Sheet, longest};
+use super::panel::{PanelLayout, longest};
 use super::{Panel, Plot};
 
-/// Height below which not even bare curves can be told apart, pixels.
+/// Height below which not even bare curves are legible, pixels.
 pub const LEAST_INSET: f64 = 60.0;
-/// Size of the smallest type, pixels.
+/// Size of the smallest text, pixels.
 const LEAST_TYPE: f64 = 9.5;
-/// Heights of an inset in lines of its type, where that is not the smallest.
+/// Height of an inset in lines of text, if the text is not the smallest.
 const LINES: f64 = 23.0;
-/// Least height in lines for all that an inset can have, for a caption, and for ticks.
+/// Smallest height, in lines of text, for all parts of an inset; for a caption; for ticks.
 const WITH: [f64; 3] = [19.0, 13.5, 9.0];
-/// How far its margins hide the picture.
+/// Opacity of the margins over the image.
 const OPACITY: f64 = 0.88;
 
-/// Places the first panel of a plot, and the caption's first line, on a page of `size` pixels.
+/// Lays out the first panel of a plot, and the first line of its caption, on a page of `size`
+/// pixels.
 pub fn lay_out_inset(plot: &Plot, size: [f64; 2]) -> Drawing {
     let font = (size[1] / LINES).max(LEAST_TYPE);
     let [all, caption, ticks] = WITH.map(|lines| size[1] >= lines * font);
@@ -68,16 +68,16 @@ fn group(id: &str, marks: Vec<Mark>) -> Group {
     Group { id, marks }
 }
 
-/// The names of the axes stand level, above the one and below the other: an inset is too low for a
-/// name that runs upwards.
+/// The panel with the names of its axes, both horizontal, above the one and below the other: an
+/// inset is too low for a name that runs upward.
 fn with_names(panel: &Panel, size: [f64; 2], base: f64, font: f64) -> Vec<Mark> {
     let base = base + 1.5 * font;
-    let sheet = sheet(panel, size, base, 3.15, font);
-    let mut marks = behind(&sheet);
+    let layout = laid_out(panel, size, base, 3.15, font);
+    let mut marks = behind(&layout);
     let name = Text::new([0.7 * font, base], font, &panel.y.title());
     marks.push(label("y-label", Anchor::Start, name));
     let below = [
-        sheet.area.corner[0] + sheet.area.size[0] / 2.0,
+        layout.area.corner[0] + layout.area.size[0] / 2.0,
         size[1] - 0.5 * font,
     ];
     let name = Text::new(below, font, &panel.x.title());
@@ -85,29 +85,29 @@ fn with_names(panel: &Panel, size: [f64; 2], base: f64, font: f64) -> Vec<Mark> 
     marks
 }
 
-/// The unit of the horizontal axis stands at its end, in place of labels there.
+/// The panel with the unit of the horizontal axis at its end, in place of the labels there.
 fn with_units(panel: &Panel, size: [f64; 2], base: f64, font: f64) -> Vec<Mark> {
     let base = base + 1.35 * font;
-    let mut sheet = sheet(panel, size, base, 1.65, font);
-    let [width, _] = sheet.area.size;
+    let mut layout = laid_out(panel, size, base, 1.65, font);
+    let [width, _] = layout.area.size;
     let unit = panel.x.measure();
     let taken = (unit.chars().count() as f64 + 2.5) * CHARACTER * font / width;
-    for tick in &mut sheet.x_ticks {
+    for tick in &mut layout.x_ticks {
         if tick.place > 1.0 - taken {
             tick.label = None;
         }
     }
-    let mut marks = behind(&sheet);
+    let mut marks = behind(&layout);
     let name = Text::new([0.5 * font, base], font, &panel.y.measure());
     marks.push(label("y-label", Anchor::Start, name));
-    let end = [sheet.area.corner[0] + width, size[1] - 0.4 * font];
+    let end = [layout.area.corner[0] + width, size[1] - 0.4 * font];
     marks.push(label("x-label", Anchor::End, Text::new(end, font, &unit)));
     marks
 }
 
 fn bare(panel: &Panel, size: [f64; 2], font: f64) -> Vec<Mark> {
     let margin = 0.5 * font;
-    let sheet = Sheet {
+    let layout = PanelLayout {
         panel,
         font,
         area: Rect {
@@ -117,20 +117,20 @@ fn bare(panel: &Panel, size: [f64; 2], font: f64) -> Vec<Mark> {
         x_ticks: Vec::new(),
         y_ticks: Vec::new(),
     };
-    let mut marks = vec![ground(&sheet)];
-    marks.extend(sheet.bare());
+    let mut marks = vec![ground(&layout)];
+    marks.extend(layout.bare());
     marks
 }
 
-/// A panel below the line `base`, with `below` lines of type under it.
-fn sheet(panel: &Panel, size: [f64; 2], base: f64, below: f64, font: f64) -> Sheet<'_> {
+/// A panel below the line `base`, with `below` lines of text under it.
+fn laid_out(panel: &Panel, size: [f64; 2], base: f64, below: f64, font: f64) -> PanelLayout<'_> {
     let top = base + 0.85 * font;
     let height = (size[1] - top - below * font).max(1.0);
     let y_ticks = panel.y.ticks((height / (2.0 * font)) as usize);
     // The same for nearly all labels, so that axes do not jump from frame to frame.
     let left = (1.0 + longest(&y_ticks).max(4.0) * CHARACTER) * font;
     let width = (size[0] - left - 1.6 * font).max(1.0);
-    Sheet {
+    PanelLayout {
         panel,
         font,
         area: Rect {
@@ -143,16 +143,16 @@ fn sheet(panel: &Panel, size: [f64; 2], base: f64, below: f64, font: f64) -> She
 }
 
 /// The curves between labelled ticks.
-fn behind(sheet: &Sheet<'_>) -> Vec<Mark> {
-    let mut marks = vec![ground(sheet)];
-    marks.extend(sheet.bare());
-    marks.extend(sheet.values());
+fn behind(layout: &PanelLayout<'_>) -> Vec<Mark> {
+    let mut marks = vec![ground(layout)];
+    marks.extend(layout.bare());
+    marks.extend(layout.values());
     marks
 }
 
-/// Between the axes no picture shines through: what is read there is the curves' alone.
-fn ground(sheet: &Sheet<'_>) -> Mark {
-    let Rect { corner, size } = sheet.area;
+/// The opaque background between the axes, so that the image does not show through the curves.
+fn ground(layout: &PanelLayout<'_>) -> Mark {
+    let Rect { corner, size } = layout.area;
     Mark::new("ground", PAPER, Shape::Rect { corner, size })
 }
 

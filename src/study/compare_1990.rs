@@ -1,23 +1,23 @@
-//! The findings of Hsiung et al. 1990, §6, beside those of a study: each effect's time as a part of
-//! the time of everything else.
+//! The results of Hsiung et al. 1990, §6, beside those of a study: the time of each effect as a
+//! share of the time of everything else.
 
-use super::findings::PaperRow;
-use super::rounds::Measured;
-use super::subject::phase;
+use super::interleaved_timing::Measured;
+use super::results::PaperRow;
+use super::timed_render::phase;
 
-/// What the rows are made of.
+/// The renders from which the rows are computed.
 pub(super) struct Compared<'a> {
-    /// The shot as it is.
+    /// The shot unchanged.
     pub(super) current: &'a Measured,
-    /// Without shift, by three numbers.
+    /// Without shift, by RGB.
     pub(super) rgb: &'a Measured,
     /// With shift, by lines of 5 nm, splines of 81 wavelengths, the grid of 84.
     pub(super) lines: &'a Measured,
     pub(super) spline: &'a Measured,
     pub(super) grid: &'a Measured,
-    /// Whether any line of 5 nm is seen.
+    /// Whether the sensor's window contains any line of 5 nm spacing.
     pub(super) lines_seen: bool,
-    /// Whether the image calls for geometry, and for shifts.
+    /// Whether the image needs geometry, and shifts.
     pub(super) geometry: bool,
     pub(super) doppler: bool,
 }
@@ -74,7 +74,7 @@ impl Compared<'_> {
 
     fn boosts(&self) -> f64 {
         let boosts = self.current.phase(phase("boost")).median;
-        let all: f64 = (0..super::subject::PHASES.len())
+        let all: f64 = (0..super::timed_render::PHASES.len())
             .map(|i| self.current.phase(i).median)
             .sum();
         boosts / (all - boosts)

@@ -1,16 +1,16 @@
-//! Labels beside dots: each where it covers no dot and no other label, and as little of the lines
-//! as can be. What finds no room, not even its short form, is left out: its dot can still be
-//! pointed at.
+//! Labels beside dots, each placed where it covers no dot, no other label, and as little of the
+//! lines as possible. If there is no room even for the short form, the label is left out; the
+//! tooltip remains.
 
 use super::Remark;
 use super::drawing::{Anchor, Mark, Shape, Text};
 use super::marks::{CHARACTER, Rect, label};
 
-/// Size of the font of labels, in sizes of that of the axes.
+/// Font size of labels, relative to that of the axes.
 const SIZE: f64 = 0.86;
-/// Between a dot's middle and its label, in sizes of the label's font.
+/// Distances between the center of a dot and its label, in font sizes of the label.
 const GAPS: [f64; 2] = [0.95, 1.4];
-/// Where a label stands from its dot, the best first.
+/// Directions from a dot to its label, the best first.
 const SIDES: [[f64; 2]; 8] = [
     [1.0, 0.0],
     [1.0, -0.9],
@@ -22,8 +22,8 @@ const SIDES: [[f64; 2]; 8] = [
     [0.0, 1.0],
 ];
 
-/// Labels of dots at places on the page, inside of `area`, around what is drawn there.
-pub(super) fn beside(
+/// Labels of dots at places on the page, inside `area` and around the marks `drawn` there.
+pub(super) fn place_labels(
     dots: &[([f64; 2], &Remark)],
     drawn: &[Mark],
     area: Rect,
@@ -79,7 +79,7 @@ impl Extent {
     }
 }
 
-/// What a dot or a ring covers.
+/// The extent of a dot or a ring.
 fn round(mark: &Mark) -> Option<Extent> {
     match mark.shape {
         Shape::Dot { center, radius } | Shape::Ring { center, radius, .. } => Some(Extent {
@@ -90,7 +90,7 @@ fn round(mark: &Mark) -> Option<Extent> {
     }
 }
 
-/// Points along a line, close enough that no label fits between.
+/// Points along a line, so close that no label fits between them.
 fn along(mark: &Mark, font: f64) -> Vec<[f64; 2]> {
     let Shape::Line { points, .. } = &mark.shape else {
         return Vec::new();
@@ -109,7 +109,7 @@ fn along(mark: &Mark, font: f64) -> Vec<[f64; 2]> {
         .collect()
 }
 
-/// Where words can stand beside a dot, and what they cover there.
+/// Possible places of a text beside a dot, with their extents.
 fn places(at: [f64; 2], words: &str, size: f64) -> Vec<(([f64; 2], Anchor), Extent)> {
     let length = words.chars().count() as f64 * CHARACTER * size;
     let place = |gap: f64, [right, below]: [f64; 2]| {
@@ -151,7 +151,7 @@ mod tests {
         let drawn: Vec<Mark> = dots.iter().map(dot).collect();
         let dots: Vec<_> = dots.iter().map(|at| (*at, remark)).collect();
         let corner = [0.0, 0.0];
-        let marks = beside(&dots, &drawn, Rect { corner, size }, 14.0);
+        let marks = place_labels(&dots, &drawn, Rect { corner, size }, 14.0);
         let words = marks.into_iter().map(|mark| match mark.shape {
             Shape::Text(text) => text.words,
             other => format!("{other:?}"),
@@ -182,7 +182,7 @@ mod tests {
                 corner: [0.0, 0.0],
                 size: [400.0, 200.0],
             };
-            let texts = beside(&dots, &[], area, 14.0);
+            let texts = place_labels(&dots, &[], area, 14.0);
             let extent = |mark: Mark| match mark.shape {
                 Shape::Text(text) => {
                     let length = text.words.chars().count() as f64 * CHARACTER * text.size;

@@ -1,9 +1,9 @@
 //! What the grid states its error to be, over all that a scene's spectra can become.
 
-use super::curve::Curve;
-use super::curves::CurveShader;
-use super::exact::Reading;
-use super::table::XyzTable;
+use super::super::curve::Curve;
+use super::super::curves::CurveShader;
+use super::super::integrand::Reading;
+use super::super::table::XyzTable;
 use crate::spectrum::{GridBound, Quadrature, Roughness, Spectrum, planck};
 
 /// Error of black bodies that are tabulated over ln T, relative: 2e-5 where all that the window
@@ -12,8 +12,8 @@ const BLACK_BODIES: f64 = 2e-5;
 
 impl CurveShader {
     /// The largest error of light that comes without mirrors, of all pairs of material and lamp,
-    /// glowing surfaces and the sky's spectrum; see [`Shader::bound`](super::Shader::bound).
-    pub(super) fn bound(&self, quadrature: &Quadrature) -> f64 {
+    /// glowing surfaces and the sky's spectrum; see [`Shader::bound`](crate::shade::Shader::bound).
+    pub(crate) fn bound(&self, quadrature: &Quadrature) -> f64 {
         let Some(seen_nm) = quadrature.seen_nm() else {
             return 0.0;
         };
@@ -22,7 +22,13 @@ impl CurveShader {
         let grid = GridBound::new(&self.sensor, quadrature, spacing);
         let [near, far] = self
             .reach
-            .map(|reach| if self.received.shifts() { reach } else { 0.0 })
+            .map(|reach| {
+                if self.walk.received().shifts() {
+                    reach
+                } else {
+                    0.0
+                }
+            })
             .map(|reach| [seen_nm[0] * (-reach).exp(), seen_nm[1] * reach.exp()]);
         let rough = |curve: &Curve, range_nm: [f64; 2]| {
             if curve.constant().is_some() {
@@ -36,12 +42,12 @@ impl CurveShader {
         };
         let lamps: Vec<Roughness> = self.emitters.iter().map(|e| rough(&e.curve, far)).collect();
         let mut worst = 0.0f64;
-        for surface in &self.surfaces {
-            for term in surface.reflecting().flatten() {
-                let own = rough(&term.reflectance, near);
+        for material in &self.materials {
+            for lobe in material.reflectors() {
+                let own = rough(&lobe.reflectance, near);
                 for (emitter, lamp) in self.emitters.iter().zip(&lamps) {
                     let reading = |curve| Reading { curve, shift: 1.0 };
-                    let both = [&term.reflectance, &emitter.curve].map(reading);
+                    let both = [&lobe.reflectance, &emitter.curve].map(reading);
                     let apart = both.iter().all(|r| r.curve.narrow().is_some())
                         && self.apart(&both[0], &both[1]).is_some();
                     worst = worst.max(if apart {
@@ -51,11 +57,11 @@ impl CurveShader {
                     });
                 }
             }
-            if let Some(emission) = &surface.emission {
+            if let Some(emission) = &material.emission {
                 worst = worst.max(grid.relative(&[rough(&emission.curve, near)]));
             }
-            if let Some(glow) = &surface.glow {
-                let (kelvin, emissivity) = glow.parts();
+            if let Some(thermal) = &material.thermal {
+                let (kelvin, emissivity) = thermal.parts();
                 let light = |nm| planck::radiance(nm, kelvin);
                 // Like a constant, Planck's curve bends nowhere.
                 let body = Roughness::of(light, &Spectrum::Constant(1.0), near, grid.step());

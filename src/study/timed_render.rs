@@ -1,4 +1,4 @@
-//! One image of a shot, rendered as every other of its images is, with seconds by phase.
+//! One timed render of an image, in the same way as every image is rendered, with seconds by phase.
 
 use super::StudyError;
 use super::memory::{forget_peak, peak_mib};
@@ -13,19 +13,19 @@ use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Instant;
 
-/// A scene and its bodies, ready for rays.
+/// A scene and its trees, ready for rays.
 pub(super) struct Bodies {
     pub(super) scene: Scene,
     pub(super) stage: Stage,
 }
 
-/// The image of which variants are rendered.
+/// The image whose variants are rendered.
 pub(super) struct Subject {
     /// Number of the frame.
     pub(super) frame: u32,
     /// Exposure, stops.
     pub(super) stops: f64,
-    /// Folder that files are written to, and nobody reads.
+    /// Scratch folder; its files are written only to time writing.
     pub(super) scratch: PathBuf,
 }
 
@@ -43,20 +43,20 @@ impl Subject {
 /// The image at one setting of one knob.
 #[derive(Clone)]
 pub(super) struct Variant {
-    /// In words.
+    /// Description of the setting.
     pub(super) setting: String,
-    /// Those on one curve.
+    /// Family of settings on one curve.
     pub(super) family: String,
-    /// What to write into the shot.
+    /// The text to write into the shot.
     pub(super) toml: Option<String>,
-    /// Whether the shot has it.
+    /// Whether it is the shot's own setting.
     pub(super) current: bool,
     pub(super) shot: Shot,
     pub(super) bodies: Arc<Bodies>,
     pub(super) options: Options,
 }
 
-/// Phases of an image in the order in which they happen, with what happens in them.
+/// Phases of an image in the order in which they happen, each with a description.
 pub(super) const PHASES: [(&str, &str); 9] = [
     (
         "prepare",
@@ -78,7 +78,7 @@ pub(super) const PHASES: [(&str, &str); 9] = [
     ("write", "files encoded and written to the disk"),
 ];
 
-/// Place of a phase in [`PHASES`].
+/// Index of a phase in [`PHASES`].
 pub(super) fn phase(name: &str) -> usize {
     let place = PHASES.iter().position(|(phase, _)| *phase == name);
     place.expect("only phases of the list are asked for")
@@ -86,9 +86,9 @@ pub(super) fn phase(name: &str) -> usize {
 
 /// One render of a variant.
 pub(super) struct Run {
-    /// Wall clock of the whole image.
+    /// Seconds of wall clock for the whole image.
     pub(super) seconds: f64,
-    /// By [`PHASES`]; those that threads share are divided by their number.
+    /// Seconds by [`PHASES`]; those that threads share are divided by the number of threads.
     pub(super) phases: [f64; 9],
     pub(super) memory_mib: Option<f64>,
     pub(super) film: Film,
@@ -104,7 +104,7 @@ impl Variant {
         Ok(View::new(&frame, &frame.effects, scene, stage))
     }
 
-    /// Renders it once.
+    /// Renders the variant once.
     pub(super) fn run(&self, subject: &Subject) -> Result<Run, StudyError> {
         let counts = forget_peak();
         let profile = Profile::default();
@@ -132,7 +132,7 @@ impl Variant {
         let memory_mib = peak_mib().filter(|_| counts);
         let seconds = profile.seconds();
         let threads = rayon::current_num_threads() as f64;
-        // Once more, for its time alone: it is part of making the files.
+        // Repeated to time it alone, since it is part of making the files.
         let again = Instant::now();
         let developed = develop(&film, &development(frame.sensor.color, subject.stops));
         let developing = again.elapsed().as_secs_f64();

@@ -6,11 +6,11 @@
 //! much as light and reflectance are coloured. Under `sensor.color = "bands"` the three are the
 //! bands, and white is flat. No wavelength is looked at while shading.
 
-use super::bake::Settings;
-use super::components::{ComponentShader, Components, Holding, Part, Walk};
-use super::curve::Curve;
-use super::received::finite;
-use super::thermal::BlackBodies;
+use super::super::curve::Curve;
+use super::super::received::finite;
+use super::super::settings::Settings;
+use super::super::thermal::BlackbodyTable;
+use super::coefficients::{CoefficientBasis, CoefficientShader, Coefficients, Part, Shading};
 use crate::color::cie::RANGE_NM;
 use crate::color::spaces::{Matrix, RGB_FROM_XYZ, XYZ_FROM_RGB, apply};
 use crate::scene::sky::{SkyImage, Stars};
@@ -26,39 +26,39 @@ use std::sync::Arc;
 const WAVELENGTHS: usize = 4096;
 
 /// Turns shade trees to light by three numbers.
-pub(super) struct RgbShader {
-    shader: ComponentShader<RgbHolding>,
+pub(crate) struct RgbShader {
+    shader: CoefficientShader<RgbBasis>,
 }
 
 impl RgbShader {
     /// Prepares a scene's numbers; `sensor` is that of its curves.
-    pub(super) fn new(scene: &Scene, settings: &Settings<'_>, sensor: &Sensor) -> Self {
-        let holding = RgbHolding::new(&scene.background, settings, sensor);
+    pub(crate) fn new(scene: &Scene, settings: &Settings<'_>, sensor: &Sensor) -> Self {
+        let basis = RgbBasis::new(&scene.background, settings, sensor);
         Self {
-            shader: ComponentShader::new(scene, settings, sensor.axis(), holding),
+            shader: CoefficientShader::new(scene, settings, sensor.axis(), basis),
         }
     }
 
     /// Memory of spectra, bytes.
-    pub(super) fn bytes(&self) -> usize {
+    pub(crate) fn bytes(&self) -> usize {
         self.shader.held() * size_of::<[f64; 3]>() + WAVELENGTHS * size_of::<[f64; 4]>()
     }
 
     /// What the camera receives along a ray, in the sensor's channels.
     #[inline]
-    pub(super) fn xyz(
+    pub(crate) fn xyz(
         &self,
         trees: &ShadeTrees,
         root: Root,
-        walk: &mut Walk<[f64; 3]>,
+        shading: &mut Shading<[f64; 3]>,
     ) -> [f64; 3] {
-        let numbers = self.shader.received(trees, root, Part::Whole, walk);
-        let channels = self.shader.holding.primaries.channels(*numbers);
+        let numbers = self.shader.received(trees, root, Part::Whole, shading);
+        let channels = self.shader.basis.primaries.channels(*numbers);
         channels.map(|v| finite(v.max(0.0)))
     }
 }
 
-impl Components for [f64; 3] {
+impl Coefficients for [f64; 3] {
     #[inline(always)]
     fn add(&mut self, light: &Self, factor: f64) {
         for (sum, light) in self.iter_mut().zip(light) {
@@ -115,7 +115,7 @@ impl Primaries {
 }
 
 /// Spectra as three numbers.
-struct RgbHolding {
+struct RgbBasis {
     primaries: Primaries,
     fine: Fine,
     /// The light under which a reflectance is measured, and its numbers.
@@ -123,7 +123,7 @@ struct RgbHolding {
     sky: RgbSky,
 }
 
-impl RgbHolding {
+impl RgbBasis {
     fn new(sky: &Background, settings: &Settings<'_>, sensor: &Sensor) -> Self {
         let (primaries, white) = match settings.sensor.color {
             SensorColor::Cie1931 => (Primaries::Rec709, d65()),
@@ -144,8 +144,8 @@ fn d65() -> Spectrum {
     illuminant("D65").expect("D65 has a table")
 }
 
-impl Holding for RgbHolding {
-    type Held = [f64; 3];
+impl CoefficientBasis for RgbBasis {
+    type Coefficients = [f64; 3];
 
     fn light(&self, curve: impl Fn(f64) -> f64) -> [f64; 3] {
         self.primaries.numbers(self.fine.channels(curve))
@@ -168,13 +168,13 @@ impl Holding for RgbHolding {
     }
 
     #[inline(always)]
-    fn clear(&self, held: &mut [f64; 3]) {
-        *held = [0.0; 3];
+    fn clear(&self, coefficients: &mut [f64; 3]) {
+        *coefficients = [0.0; 3];
     }
 
     #[inline(always)]
-    fn seen<'a>(&self, held: &'a [f64; 3], _: f64, _: &'a mut [f64; 3]) -> &'a [f64; 3] {
-        held
+    fn shifted<'a>(&self, rgb: &'a [f64; 3], _: f64, _: &'a mut [f64; 3]) -> &'a [f64; 3] {
+        rgb
     }
 
     #[inline]
@@ -224,7 +224,7 @@ struct RgbSky {
     constant: Option<[f64; 3]>,
     /// An image, and the numbers of its colours.
     image: Option<(Arc<SkyImage>, Matrix)>,
-    stars: Option<(Arc<Stars>, BlackBodies)>,
+    stars: Option<(Arc<Stars>, BlackbodyTable)>,
 }
 
 impl RgbSky {
@@ -242,7 +242,7 @@ impl RgbSky {
                 let rows = [0, 1, 2].map(|i| [r[i], g[i], b[i]]);
                 (Arc::clone(image), rows)
             }),
-            stars: stars.map(|stars| (Arc::clone(stars), BlackBodies::new(sensor))),
+            stars: stars.map(|stars| (Arc::clone(stars), BlackbodyTable::new(sensor))),
         }
     }
 

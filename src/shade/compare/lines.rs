@@ -3,11 +3,11 @@
 //!
 //! A shift that is exactly 1 resamples nothing.
 
-use super::bake::Settings;
-use super::components::{ComponentShader, Components, Holding, Part, Walk};
-use super::curve::Curve;
-use super::radiance::Radiance;
-use super::received::finite;
+use super::super::curve::Curve;
+use super::super::radiance::Radiance;
+use super::super::received::finite;
+use super::super::settings::Settings;
+use super::coefficients::{CoefficientBasis, CoefficientShader, Coefficients, Part, Shading};
 use crate::scene::sky::{SkyImage, Stars};
 use crate::scene::{Background, Scene};
 use crate::shot::SensorColor;
@@ -17,8 +17,8 @@ use glam::DVec3;
 use std::sync::Arc;
 
 /// Turns shade trees to light by lines.
-pub(super) struct LineShader {
-    shader: ComponentShader<LineHolding>,
+pub(crate) struct LineShader {
+    shader: CoefficientShader<LineBasis>,
     /// What each line that is seen adds to the sensor's channels.
     weights: Vec<(usize, [f64; 3])>,
     /// Wavelengths of curves that are asked for.
@@ -27,44 +27,49 @@ pub(super) struct LineShader {
 
 impl LineShader {
     /// Prepares a scene's lines; `curves` is the axis of [`LineShader::radiance`].
-    pub(super) fn new(scene: &Scene, settings: &Settings<'_>, curves: LogAxis) -> Self {
+    pub(crate) fn new(scene: &Scene, settings: &Settings<'_>, curves: LogAxis) -> Self {
         let axis = LineAxis::new(settings.accuracy.line_spacing);
         let window = settings.sensor.window;
         let weights = match settings.sensor.color {
             SensorColor::Cie1931 => axis.cie1931(window),
             SensorColor::Bands => axis.bands(window),
         };
-        let holding = LineHolding {
+        let basis = LineBasis {
             axis,
             sky: LineSky::new(&scene.background, axis),
         };
         Self {
-            shader: ComponentShader::new(scene, settings, curves, holding),
+            shader: CoefficientShader::new(scene, settings, curves, basis),
             weights,
             curves,
         }
     }
 
     /// Memory of spectra, bytes.
-    pub(super) fn bytes(&self) -> usize {
-        self.shader.held() * self.shader.holding.axis.count() * size_of::<f64>()
+    pub(crate) fn bytes(&self) -> usize {
+        self.shader.held() * self.shader.basis.axis.count() * size_of::<f64>()
     }
 
     /// What the camera receives along a ray, in the sensor's channels.
-    pub(super) fn xyz(&self, trees: &ShadeTrees, root: Root, walk: &mut Walk<Lines>) -> [f64; 3] {
+    pub(crate) fn xyz(
+        &self,
+        trees: &ShadeTrees,
+        root: Root,
+        shading: &mut Shading<Lines>,
+    ) -> [f64; 3] {
         self.shader
-            .received(trees, root, Part::Whole, walk)
+            .received(trees, root, Part::Whole, shading)
             .weigh(&self.weights)
     }
 
     /// Spectral radiance that the camera receives along a ray: what its lines hold, linear between
     /// them, 0 beyond.
-    pub(super) fn radiance(&self, trees: &ShadeTrees, root: Root) -> Radiance {
+    pub(crate) fn radiance(&self, trees: &ShadeTrees, root: Root) -> Radiance {
         let wavelengths = self.curves.wavelengths_nm();
-        let axis = self.shader.holding.axis;
-        let mut walk = Walk::default();
+        let axis = self.shader.basis.axis;
+        let mut shading = Shading::default();
         let mut part = |part| {
-            let lines = self.shader.received(trees, root, part, &mut walk);
+            let lines = self.shader.received(trees, root, part, &mut shading);
             wavelengths.iter().map(|nm| lines.at(axis, *nm)).collect()
         };
         Radiance {
@@ -74,7 +79,7 @@ impl LineShader {
     }
 }
 
-impl Components for Lines {
+impl Coefficients for Lines {
     fn add(&mut self, light: &Self, factor: f64) {
         Lines::add(self, light, factor);
     }
@@ -89,13 +94,13 @@ impl Components for Lines {
 }
 
 /// Spectra as lines of one axis.
-struct LineHolding {
+struct LineBasis {
     axis: LineAxis,
     sky: LineSky,
 }
 
-impl Holding for LineHolding {
-    type Held = Lines;
+impl CoefficientBasis for LineBasis {
+    type Coefficients = Lines;
 
     fn light(&self, curve: impl Fn(f64) -> f64) -> Lines {
         Lines::sample(self.axis, curve)
@@ -105,15 +110,15 @@ impl Holding for LineHolding {
         Lines::sample(self.axis, |nm| curve.at(nm))
     }
 
-    fn clear(&self, held: &mut Lines) {
-        held.clear(self.axis);
+    fn clear(&self, lines: &mut Lines) {
+        lines.clear(self.axis);
     }
 
-    fn seen<'a>(&self, held: &'a Lines, shift: f64, buffer: &'a mut Lines) -> &'a Lines {
+    fn shifted<'a>(&self, lines: &'a Lines, shift: f64, buffer: &'a mut Lines) -> &'a Lines {
         if shift == 1.0 {
-            return held;
+            return lines;
         }
-        held.resample(self.axis, shift, buffer);
+        lines.resample(self.axis, shift, buffer);
         buffer
     }
 

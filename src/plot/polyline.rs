@@ -1,4 +1,4 @@
-//! Lines of a plot: where they leave the axis, and as few points as they need.
+//! Polylines: the parts of a curve that are on the axis, with as few points as they need.
 
 use super::Axis;
 
@@ -17,7 +17,7 @@ pub(super) fn visible_runs<'a>(points: &'a [[f64; 2]], y: &Axis) -> Vec<&'a [[f6
     runs
 }
 
-/// Leaves out points that are no more than `tolerance` from the line without them (Douglas &
+/// Removes points that are no more than `tolerance` away from the line without them (Douglas &
 /// Peucker 1973).
 pub(super) fn simplified(points: &[[f64; 2]], tolerance: f64) -> Vec<[f64; 2]> {
     let Some(last) = points.len().checked_sub(1) else {

@@ -1,17 +1,17 @@
-//! A panel on its part of a page: tints, grid, curves and what stands beside the axes.
+//! Layout of a panel on its part of a page: tints, grid, curves, labels of the axes.
 
 use super::axis::Tick;
 use super::drawing::{Anchor, Mark, Shape, Text};
-use super::line::{simplified, visible_runs};
 use super::marks::{CHARACTER, INK, Rect, USUAL_FONT, label, strokes};
-use super::remarks::beside;
+use super::point_labels::place_labels;
+use super::polyline::{simplified, visible_runs};
 use super::{Color, Panel, Remark, Series};
 
 const GRID: Color = [222, 222, 222];
-/// How far a drawn line may be from the curve, pixels.
+/// Largest distance of a drawn line from the curve, pixels.
 const TOLERANCE: f64 = 0.04;
-/// A panel on its part of the page.
-pub(super) struct Sheet<'a> {
+/// A panel, and its place on the page.
+pub(super) struct PanelLayout<'a> {
     pub(super) panel: &'a Panel,
     pub(super) font: f64,
     /// The rectangle between the axes.
@@ -20,8 +20,8 @@ pub(super) struct Sheet<'a> {
     pub(super) y_ticks: Vec<Tick>,
 }
 
-impl<'a> Sheet<'a> {
-    /// With room for labels on a part of a page.
+impl<'a> PanelLayout<'a> {
+    /// A panel with room for labels, on a part of a page.
     pub(super) fn new(panel: &'a Panel, place: Rect, font: f64) -> Self {
         let [above, right, below] = [1.9, 1.6, 3.7].map(|share| share * font);
         let height = (place.size[1] - above - below).max(1.0);
@@ -48,10 +48,10 @@ impl<'a> Sheet<'a> {
         self.area.corner[1] + (1.0 - place) * self.area.size[1]
     }
 
-    /// The curves between their axes, and all that is written beside them.
+    /// The curves between their axes, with titles and labels.
     pub(super) fn labelled(&self) -> Vec<Mark> {
         let drawn = self.curves();
-        let beside = beside(&self.remarked(), &drawn, self.area, self.font);
+        let beside = place_labels(&self.remarked(), &drawn, self.area, self.font);
         let mut marks = self.between_axes(drawn);
         marks.extend(self.values());
         marks.extend(self.titles());
@@ -78,8 +78,8 @@ impl<'a> Sheet<'a> {
         marks
     }
 
-    /// Tints finer than a pixel are left to their neighbors. Each reaches over the next one, which
-    /// covers it again: no seams.
+    /// The tinted background. Tints finer than a pixel are merged with their neighbors. Each
+    /// reaches below the next one, so that there are no seams.
     fn tints(&self) -> Vec<Mark> {
         const FINEST: f64 = 1.0;
         let Panel { x, tints, .. } = self.panel;
@@ -104,7 +104,7 @@ impl<'a> Sheet<'a> {
         shown.iter().enumerate().map(mark).collect()
     }
 
-    /// Lines across at labelled ticks, and short ones at the others.
+    /// Grid lines at ticks with labels, short lines at the others.
     fn grid(&self) -> Vec<Mark> {
         const SHORT: f64 = 0.35;
         let style = |tick: &Tick, [across, short]: [&'static str; 2], extent: f64| match tick.label
@@ -160,7 +160,7 @@ impl<'a> Sheet<'a> {
         [self.x(across.place(*x)), self.y(up.place(*y))]
     }
 
-    /// The dots of a series that its axis shows, each with what is said of it.
+    /// The dots of a series that its axis shows, each with its label.
     fn dots<'b>(&self, series: &'b Series) -> impl Iterator<Item = ([f64; 2], Option<&'b Remark>)> {
         let remarks = series.remarks.iter().map(Some);
         let points = series
@@ -197,7 +197,7 @@ impl<'a> Sheet<'a> {
         across.chain(up).collect()
     }
 
-    /// What the axes measure, the panel's title and its note.
+    /// The titles of the axes, the panel's title and its note.
     fn titles(&self) -> Vec<Mark> {
         let font = self.font;
         let Panel {
@@ -229,7 +229,7 @@ impl<'a> Sheet<'a> {
     }
 }
 
-/// Characters of the longest label.
+/// Number of characters of the longest label.
 pub(super) fn longest(ticks: &[Tick]) -> f64 {
     let lengths = labelled(ticks).map(|(_, label)| label.chars().count());
     lengths.max().unwrap_or(0) as f64

@@ -1,0 +1,124 @@
+//! A tree to the sensor's channels: by tables over ln D where there are some, else by sums over the
+//! sensor's wavelengths.
+
+use super::super::curves::CurveShader;
+use super::super::received::{Doppler, finite};
+use super::super::scratch::ShadeScratch;
+use super::super::table::add;
+use super::super::walk::{Lamps, SpectralBasis, Visit};
+use super::throughput::Throughputs;
+use crate::trace::{Root, ShadeTrees};
+use glam::DVec3;
+
+impl CurveShader {
+    /// What the camera receives along a ray, in the sensor's channels.
+    pub(crate) fn xyz(
+        &self,
+        trees: &ShadeTrees,
+        root: Root,
+        scratch: &mut ShadeScratch,
+    ) -> [f64; 3] {
+        if root.count > 1 {
+            return self.tree_xyz(trees, root, scratch);
+        }
+        let mut visits = self.walk.visits(trees, root);
+        let node = visits.next();
+        node.map_or([0.0; 3], |node| self.node_xyz(&node, scratch))
+    }
+
+    /// Light of a tree of several nodes, each through the mirrors and glass on its way.
+    fn tree_xyz(&self, trees: &ShadeTrees, root: Root, scratch: &mut ShadeScratch) -> [f64; 3] {
+        let count = self.sensor.axis().count();
+        let mut throughputs = std::mem::take(&mut scratch.throughputs);
+        throughputs.clear(count);
+        let mut sum = [0.0; 3];
+        for visit in self.walk.visits(trees, root) {
+            self.push_throughput(&visit, &mut throughputs);
+            if let Some(grey) = throughputs.last_grey() {
+                if grey > 0.0 {
+                    add(&mut sum, self.node_xyz(&visit, scratch), grey);
+                }
+                continue;
+            }
+            if self.quadrature.is_some() && self.is_narrow(&visit) {
+                add(&mut sum, self.narrow_node(&visit), 1.0);
+                continue;
+            }
+            let mut light = std::mem::take(&mut scratch.radiance);
+            light.clear(count);
+            self.add_node(&visit, &mut light, scratch);
+            let mut total = light.total();
+            throughputs.weigh_by_last(&mut total);
+            add(&mut sum, self.sensor.xyz(&total), 1.0);
+            scratch.radiance = light;
+        }
+        scratch.throughputs = throughputs;
+        sum.map(finite)
+    }
+
+    /// Adds the throughput of a node to those of the nodes before it.
+    pub(super) fn push_throughput(&self, visit: &Visit<'_>, throughputs: &mut Throughputs) {
+        match visit.passage() {
+            None => throughputs.push_direct(),
+            Some(passage) => throughputs.push(&passage, self.passed(&passage).curve),
+        }
+    }
+
+    /// Light of one node as the camera would see it directly.
+    #[inline]
+    fn node_xyz(&self, visit: &Visit<'_>, scratch: &mut ShadeScratch) -> [f64; 3] {
+        let mut channels = Channels {
+            shader: self,
+            scratch,
+            sum: [0.0; 3],
+        };
+        visit.add_to(&mut channels);
+        channels.sum
+    }
+}
+
+/// Sources as channels.
+struct Channels<'a> {
+    shader: &'a CurveShader,
+    scratch: &'a mut ShadeScratch,
+    sum: [f64; 3],
+}
+
+impl SpectralBasis for Channels<'_> {
+    #[inline]
+    fn sky(&mut self, direction: DVec3, doppler: Doppler) {
+        let sensor = &self.shader.sensor;
+        let [shape, _] = self.scratch.buffers(sensor.axis().count());
+        let xyz = self.shader.sky.xyz(direction, doppler, sensor, shape);
+        add(&mut self.sum, xyz, 1.0);
+    }
+
+    #[inline]
+    fn emission(&mut self, material: usize, doppler: Doppler) {
+        if let Some(emission) = &self.shader.materials[material].emission {
+            let sensor = &self.shader.sensor;
+            let [shape, _] = self.scratch.buffers(sensor.axis().count());
+            add(&mut self.sum, emission.xyz(doppler, sensor, shape), 1.0);
+        }
+    }
+
+    #[inline]
+    fn thermal(&mut self, material: usize, doppler: Doppler) {
+        let thermal = &self.shader.materials[material].thermal;
+        if let (Some(thermal), Some(bodies)) = (thermal, &self.shader.bodies) {
+            let sensor = &self.shader.sensor;
+            let [shape, _] = self.scratch.buffers(sensor.axis().count());
+            let xyz = thermal.xyz(doppler, sensor, bodies, shape);
+            add(&mut self.sum, xyz, 1.0);
+        }
+    }
+
+    #[inline]
+    fn lamps(&mut self, material: usize, doppler: Doppler, lamps: Lamps<'_>) {
+        let material = &self.shader.materials[material];
+        let xyz = self
+            .shader
+            .lamps_xyz(material, doppler, lamps, self.scratch);
+        add(&mut self.sum, xyz, 1.0);
+    }
+}
