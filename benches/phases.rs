@@ -11,7 +11,7 @@ use restframe::film::{Development, Film, develop};
 use restframe::frame::Frame;
 use restframe::image::exr::{self, Depth};
 use restframe::image::{Metadata, png};
-use restframe::queue::Prepared;
+use restframe::render::Prepared;
 use restframe::render::{Options, development, render};
 use restframe::scene::Scene;
 use restframe::trace::Stage;

@@ -9,8 +9,10 @@ use divan::Bencher;
 use rayon::prelude::*;
 use restframe::film::Film;
 use restframe::frame::Frame;
-use restframe::queue::{Prepared, Taken, pictures};
-use restframe::render::{Member, Options, Watch, film_bytes, render, render_together};
+use restframe::render::Prepared;
+use restframe::render::{
+    Member, Options, PictureInfo, Watch, encode, film_bytes, render, render_together,
+};
 use restframe::scene::Scene;
 use restframe::trace::Stage;
 use shell::shell;
@@ -73,8 +75,15 @@ impl Images {
 
     fn alone(&self, count: usize) -> Vec<Film> {
         let (shot, scene, stage) = (&self.prepared.shot, &self.scene, &self.stage);
-        let frame = Frame::new(shot, 1).expect("it moves");
-        let one = |_| render(&frame, scene, stage, &self.options, &|_| ());
+        let one = |_| {
+            render(
+                &Frame::new(shot, 1).expect("it moves"),
+                scene,
+                stage,
+                &self.options,
+                &|_| (),
+            )
+        };
         self.pool.install(|| (0..count).map(one).collect())
     }
 }
@@ -156,12 +165,12 @@ fn time_ramp(frames: u32) {
     let first = resolve(&frame(1), None);
     let stage = Stage::build(&first.geometry, None);
     let encode = |frame: &Frame<'_>, scene: &Scene, film: &Film| {
-        let taken = Taken {
+        let taken = PictureInfo {
             exposure_stops: -9.3,
             samples: 16,
             fingerprint: None,
         };
-        let files = pictures(frame, scene, &stage, film, taken);
+        let files = encode(frame, scene, film, &[], taken);
         files.expect("it can be encoded").files[0].1.len()
     };
 

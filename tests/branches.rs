@@ -8,7 +8,7 @@
 use restframe::film::{Film, SILENT};
 use restframe::frame::Frame;
 use restframe::probe::{Probe, probe};
-use restframe::queue::Prepared;
+use restframe::render::Prepared;
 use restframe::render::{Enough, Member, Options, View, enough_bounces, render};
 use restframe::scene::Scene;
 use restframe::trace::Stage;

@@ -7,7 +7,7 @@
 
 use restframe::frame::Frame;
 use restframe::probe::{Probe, probe};
-use restframe::queue::Prepared;
+use restframe::render::Prepared;
 use restframe::render::View;
 use restframe::scene::{Library, Scene};
 use restframe::shot::parse;

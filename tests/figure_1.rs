@@ -16,7 +16,7 @@
 use restframe::frame::Frame;
 use restframe::plot::{Axis, Color, Page, Panel, Plot, Scale, Series, Stroke, lay_out, svg};
 use restframe::probe::{Probe, probe};
-use restframe::queue::Prepared;
+use restframe::render::Prepared;
 use restframe::render::View;
 use restframe::scene::Scene;
 use restframe::trace::Stage;

@@ -4,7 +4,7 @@
     reason = "a test that cannot be set up has failed"
 )]
 
-use restframe::queue::Prepared;
+use restframe::render::Prepared;
 use restframe::shot::{Mistakes, load};
 use std::fs;
 use std::path::Path;

@@ -8,7 +8,7 @@
 use glam::DVec3;
 use restframe::color::cie;
 use restframe::frame::{Frame, Sensor};
-use restframe::queue::Prepared;
+use restframe::render::Prepared;
 use restframe::scene::sky::{SkyImage, Star, Stars};
 use restframe::scene::{Library, Scene};
 use restframe::shade::{Settings, ShadeScratch, Shader};

@@ -19,6 +19,7 @@ const ROOMS: &[&[&str]] = &[
     &["shade"],
     &["render"],
     &["probe"],
+    &["store", "progress"],
     &["queue"],
     &["sequence", "study"],
     &["cli"],

@@ -625,7 +625,7 @@ fn lines_are_kept_whatever_the_axis() {
 /// Both are combs of 1 nm all over the visible.
 #[test]
 fn check_tells_what_moving_lamps_with_bands_all_over_may_lose() {
-    use restframe::queue::Prepared;
+    use restframe::render::Prepared;
     use std::fmt::Write as _;
     let folder = tempfile::tempdir().unwrap();
     let mut comb = String::new();

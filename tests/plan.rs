@@ -9,8 +9,9 @@ use assert_cmd::Command;
 use restframe::frame::FrameFingerprint;
 use restframe::image;
 use restframe::image::Metadata;
-use restframe::queue::{Costs, FrameList, Names, Reel, Request};
+use restframe::queue::Costs;
 use restframe::shot;
+use restframe::store::{Names, Request, ShotFolder};
 use serde_json::{Value, json};
 use std::fs;
 use std::time::Instant;
@@ -78,33 +79,32 @@ impl Desk {
         serde_json::from_str(&out).unwrap()
     }
 
-    fn reel(&self) -> Reel {
+    fn shot_folder(&self) -> ShotFolder {
         let shot = shot::load(&self.0.path().join("wall.toml")).unwrap();
         let request = Request {
             out: self.0.path().join("renders"),
-            frames: FrameList::all(),
             scale: 1.0,
             samples: None,
         };
-        Reel::open(&shot, &request).unwrap()
+        ShotFolder::open(&shot, &request).unwrap()
     }
 
     /// Files and lines of the manifest as if these frames had been rendered, each in so many
     /// seconds: four parts tracing, one part shading.
     fn finish(&self, frames: &[(u32, f64)]) {
-        let reel = self.reel();
-        fs::create_dir_all(&reel.folder).unwrap();
+        let shot_folder = self.shot_folder();
+        fs::create_dir_all(&shot_folder.path).unwrap();
         let lines: Vec<String> = frames
             .iter()
             .map(|&(frame, seconds)| {
-                let name = reel.names.frame(frame, "png");
-                let key = reel.keys.frame(frame);
-                fs::write(reel.folder.join(&name), picture(&key)).unwrap();
+                let name = shot_folder.names.frame(frame, "png");
+                let key = shot_folder.keys.frame(frame);
+                fs::write(shot_folder.path.join(&name), picture(&key)).unwrap();
                 record(frame, &key, &name, seconds).to_string()
             })
             .collect();
-        let manifest = Names::new(reel.shot()).manifest(None);
-        fs::write(reel.folder.join(manifest), lines.join("\n")).unwrap();
+        let manifest = Names::new(shot_folder.shot()).manifest(None);
+        fs::write(shot_folder.path.join(manifest), lines.join("\n")).unwrap();
     }
 }
 
@@ -273,13 +273,17 @@ fn another_shot_below_the_same_folder_is_better_than_a_guess() {
 #[test]
 fn what_is_learnt_while_rendering_mends_the_estimate() {
     let desk = Desk::new();
-    let reel = desk.reel();
-    let mut costs = Costs::new(&reel);
+    let shot_folder = desk.shot_folder();
+    let mut costs = Costs::new(&shot_folder);
     let effects = ["thermal".to_owned()];
-    assert!(!costs.estimate(&effects, reel.keys.resolution()).measured);
-    let record = record(1, &reel.keys.frame(1), "x.png", 5.0);
+    assert!(
+        !costs
+            .estimate(&effects, shot_folder.keys.resolution())
+            .measured
+    );
+    let record = record(1, &shot_folder.keys.frame(1), "x.png", 5.0);
     costs.learn(&serde_json::from_value(record).unwrap());
-    let seconds = costs.seconds(&effects, reel.keys.resolution());
+    let seconds = costs.seconds(&effects, shot_folder.keys.resolution());
     assert!((seconds - 5.0).abs() < 1e-9, "{seconds}");
 }
 

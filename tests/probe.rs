@@ -15,7 +15,7 @@ use std::path::{Path, PathBuf};
 use rayon::prelude::*;
 use restframe::frame::Frame;
 use restframe::probe::{Probe, ProbeHit, probe};
-use restframe::queue::Prepared;
+use restframe::render::Prepared;
 use restframe::render::View;
 use restframe::scene::Scene;
 use restframe::shade::ShadeScratch;

@@ -7,7 +7,7 @@
 )]
 
 use restframe::frame::Frame;
-use restframe::queue::Prepared;
+use restframe::render::Prepared;
 use restframe::render::{Member, Options, View, Watch, film_bytes, render_together};
 use restframe::scene::Scene;
 use restframe::trace::Stage;

@@ -12,7 +12,7 @@ mod watched;
 
 use restframe::film::Film;
 use restframe::frame::Frame;
-use restframe::queue::Prepared;
+use restframe::render::Prepared;
 use restframe::render::{Member, Options, Stopped, Together, Watch, render, render_together};
 use restframe::scene::Scene;
 use restframe::shot::Layer;

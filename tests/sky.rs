@@ -23,7 +23,7 @@ use glam::DVec3;
 use restframe::film::Film;
 use restframe::frame::{Frame, Sensor};
 use restframe::probe::{Probe, probe};
-use restframe::queue::Prepared;
+use restframe::render::Prepared;
 use restframe::render::{Options, View, render};
 use restframe::scene::Scene;
 use restframe::shade::{Settings, ShadeScratch, Shader};

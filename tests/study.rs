@@ -4,7 +4,7 @@
 use assert_cmd::Command;
 use restframe::frame::Frame;
 use restframe::image::compare::relative_rmse;
-use restframe::queue::Prepared;
+use restframe::render::Prepared;
 use restframe::render::{Options, render};
 use restframe::scene::Scene;
 use restframe::shot::{Accuracy, Spectra};

@@ -2,7 +2,7 @@
 
 mod read;
 
-use restframe::queue::Prepared;
+use restframe::render::Prepared;
 use restframe::scene::Scene;
 use restframe::trace::Stage;
 use std::path::Path;

@@ -1,7 +1,7 @@
 //! Shots of benches, read from text.
 
 use restframe::frame::Frame;
-use restframe::queue::Prepared;
+use restframe::render::Prepared;
 use restframe::scene::Scene;
 use restframe::trace::Stage;
 use std::path::PathBuf;

@@ -1,8 +1,7 @@
 //! `restframe check`.
 
-use super::render::{warn, warnings};
-use super::{Failed, MISTAKE, mistaken, print, print_json, say};
-use crate::queue::Prepared;
+use super::{Failed, MISTAKE, mistaken, print, print_json, say, warn};
+use crate::render::Prepared;
 use crate::sequence;
 use serde_json::json;
 use std::path::PathBuf;
@@ -51,7 +50,8 @@ fn foreseen(prepared: &Prepared) -> Option<String> {
 }
 
 fn sound(prepared: &Prepared) -> serde_json::Value {
-    let warnings: Vec<String> = warnings(prepared)
+    let warnings: Vec<String> = prepared
+        .warnings()
         .into_iter()
         .chain(foreseen(prepared))
         .collect();

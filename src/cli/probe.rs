@@ -4,10 +4,10 @@ use super::{Failed, ProbeArguments, failed, mistaken, misused, print, print_json
 use crate::frame::Frame;
 use crate::plot::{Page, lay_out, svg};
 use crate::probe::{Probe, ProbeNode, plot, probe, wide_band};
-use crate::queue::{Names, Prepared, write_atomically};
-use crate::render::View;
+use crate::render::{Prepared, View};
 use crate::scene::Scene;
 use crate::shot::SensorColor;
+use crate::store::{Names, write_atomically};
 use crate::trace::Stage;
 use std::path::Path;
 

@@ -1,12 +1,11 @@
 //! `restframe study`.
 
-use super::render::{check_scale, pool, warn};
-use super::{Failed, StudyArguments, failed, mistaken, misused, print, say};
+use super::{Failed, StudyArguments, failed, mistaken, misused, pool, print, say, warn};
 use crate::frame::Frames;
-use crate::queue::{FrameList, Names, Prepared, Request, options, write_atomically};
-use crate::render::Options;
+use crate::render::{Options, Prepared};
+use crate::store::{Names, Request, write_atomically};
 use crate::study::{self, StudyError, report};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 /// Most pixels of an image studied, unless asked for: one setting of most knobs takes a second or
 /// less.
@@ -51,7 +50,7 @@ pub(super) fn run(arguments: &StudyArguments) -> Result<(), Failed> {
     })
 }
 
-/// A folder for files that nobody reads, on the disk that images go to.
+/// Scratch folder on the disk that images go to; its files are written only to time writing.
 fn scratch(folder: &Path) -> Result<tempfile::TempDir, Failed> {
     std::fs::create_dir_all(folder)
         .and_then(|()| tempfile::tempdir_in(folder))
@@ -101,14 +100,13 @@ fn size(prepared: &Prepared, arguments: &StudyArguments) -> Result<Options, Fail
         .samples
         .unwrap_or_else(|| shot.image.samples.min(SAMPLES));
     let request = Request {
-        out: PathBuf::new(),
-        frames: FrameList::all(),
         scale,
         samples: Some(samples),
+        ..Request::default()
     };
-    check_scale(shot, &request).map_err(|why| misused(&why))?;
+    request.check(shot).map_err(|why| misused(&why))?;
     Ok(Options {
         layers: Vec::new(),
-        ..options(shot, &request)
+        ..request.options(shot)
     })
 }

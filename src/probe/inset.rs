@@ -14,11 +14,12 @@ use super::plot::{SPACING, SURFACE, THERMAL_LIGHT, UNIT, curve, digits, peak, vi
 use crate::color::cie;
 use crate::film::Channels;
 use crate::frame::{Frame, Sensor};
-use crate::plot::{Axis, Color, Panel, Plot, Scale, Stroke, round_up};
-use crate::render::{self, View};
+use crate::plot::{Axis, Color, LEAST_INSET, Panel, Plot, Scale, Stroke, round_up};
+use crate::render::{self, Member, View};
 use crate::scene::{Scene, Thermal};
 use crate::shade::Radiance;
-use crate::trace::{Seen, ShadeTrees};
+use crate::shot::Effects;
+use crate::trace::{Seen, ShadeTrees, Stage};
 
 /// Grey, so that it is told from the others without seeing colours.
 const SUM: Color = [165, 165, 165];
@@ -28,6 +29,41 @@ const HEADROOM: f64 = 1.03;
 const BESIDE: f64 = 10.0;
 /// Most wavelengths of a curve: more than any picture has columns for it.
 const MOST: f64 = 8192.0;
+
+/// What the insets of an image of `size` pixels show, in the order of the shot's; None where one is
+/// too small to be read. Exposure is in stops.
+pub fn insets(
+    member: Member<'_>,
+    stage: &Stage,
+    exposure: f64,
+    size: [u32; 2],
+) -> Vec<Option<Plot>> {
+    let Member { frame, scene } = member;
+    // Insets under the same effects are seen in one view.
+    let mut views: Vec<(Effects, View<'_>)> = Vec::new();
+    let mut plots = Vec::new();
+    for inset in frame.insets {
+        let (_, [_, height]) = inset.place_in(size);
+        if f64::from(height) < LEAST_INSET {
+            plots.push(None);
+            continue;
+        }
+        let pixel = inset.pixel_of(frame.image.size);
+        let effects = frame.effects_at(pixel[1]);
+        let known = views.iter().position(|(under, _)| *under == effects);
+        let place = match known {
+            Some(place) => place,
+            None => {
+                let view = View::new(frame, &effects, scene, stage);
+                views.push((effects, view));
+                views.len() - 1
+            }
+        };
+        let (_, view) = &views[place];
+        plots.push(Some(self::inset(frame, pixel, view, scene, exposure)));
+    }
+    plots
+}
 
 /// The plot of what the centre of `pixel`, which lies in the frame's image, sees in `view`. Exposure
 /// is in stops.

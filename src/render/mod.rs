@@ -8,20 +8,24 @@ use crate::shot::{Layer, SensorColor};
 use crate::trace::Stage;
 
 mod band;
+mod encode;
 mod expose;
 mod lab_path;
 mod left_out;
 mod meter;
 mod paint;
+mod prepared;
 mod profile;
 mod together;
 mod view;
 
+pub use encode::{PictureInfo, Pictures, encode};
 pub use expose::Stopped;
 pub use lab_path::LabPath;
-pub use left_out::{Enough, enough_bounces};
+pub use left_out::{Enough, enough_bounces, left_out_warning};
 pub(crate) use left_out::{deeper, least};
 pub use meter::{Metered, metered_exposure};
+pub use prepared::{Exposing, Prepared};
 pub use profile::{Profile, Seconds};
 pub use together::{Member, Together, Watch, render_together};
 pub use view::View;

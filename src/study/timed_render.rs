@@ -1,13 +1,16 @@
 //! One timed render of an image, in the same way as every image is rendered, with seconds by phase.
 
 use super::StudyError;
-use super::memory::{forget_peak, peak_mib};
 use crate::film::{Film, develop};
 use crate::frame::Frame;
-use crate::queue::{Exposing, Pictures, Taken, pictures, write_atomically};
-use crate::render::{Options, Profile, View, development, render_profiled};
+use crate::probe;
+use crate::render::{
+    Exposing, Member, Options, PictureInfo, Pictures, Profile, View, development, encode,
+    render_profiled,
+};
 use crate::scene::Scene;
 use crate::shot::Shot;
+use crate::store::{forget_peak, peak_memory_mib, write_atomically};
 use crate::trace::Stage;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -110,15 +113,18 @@ impl Variant {
         let profile = Profile::default();
         let (scene, stage) = (&self.bodies.scene, &self.bodies.stage);
         let begun = Instant::now();
-        let frame = Frame::new(&self.shot, subject.frame)?;
-        let film = render_profiled(&frame, scene, stage, &self.options, &|_| (), Some(&profile));
+        let frame = &Frame::new(&self.shot, subject.frame)?;
+        let film = render_profiled(frame, scene, stage, &self.options, &|_| (), Some(&profile));
         let rendered = Instant::now();
-        let Pictures { files, .. } = pictures(
-            &frame,
+        let member = Member { frame, scene };
+        let size = [film.width, film.height];
+        let insets = probe::insets(member, stage, subject.stops, size);
+        let Pictures { files, .. } = encode(
+            frame,
             scene,
-            stage,
             &film,
-            Taken {
+            &insets,
+            PictureInfo {
                 exposure_stops: subject.stops,
                 samples: self.options.samples,
                 fingerprint: None,
@@ -129,7 +135,7 @@ impl Variant {
             write_atomically(&name, bytes)?;
         }
         let ended = Instant::now();
-        let memory_mib = peak_mib().filter(|_| counts);
+        let memory_mib = peak_memory_mib().filter(|_| counts);
         let seconds = profile.seconds();
         let threads = rayon::current_num_threads() as f64;
         // Repeated to time it alone, since it is part of making the files.

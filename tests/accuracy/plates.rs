@@ -4,7 +4,7 @@ use restframe::color::spaces::D65_XYZ;
 use restframe::color::{delta_e_2000, lab_from_xyz};
 use restframe::frame::Frame;
 use restframe::image::compare::Comparison;
-use restframe::queue::Prepared;
+use restframe::render::Prepared;
 use restframe::render::{Options, render};
 use restframe::scene::Scene;
 use restframe::shot::Spectra;

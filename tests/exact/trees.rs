@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 use restframe::frame::Frame;
-use restframe::queue::Prepared;
+use restframe::render::Prepared;
 use restframe::render::View;
 use restframe::scene::Scene;
 use restframe::shade::ShadeScratch;

@@ -3,7 +3,7 @@
 use restframe::film::Film;
 use restframe::frame::Frame;
 use restframe::probe::{Probe, probe};
-use restframe::queue::Prepared;
+use restframe::render::Prepared;
 use restframe::render::{Options, View, render};
 use restframe::scene::Scene;
 use restframe::trace::Stage;

@@ -3,7 +3,7 @@
 use super::bad::{triangle, write};
 use restframe::frame::Frame;
 use restframe::model::Warning;
-use restframe::queue::Prepared;
+use restframe::render::Prepared;
 use restframe::scene::{Material, Reflectance, Scene};
 use restframe::shot::Mistakes;
 use serde_json::{Value, json};

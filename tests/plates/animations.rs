@@ -7,7 +7,7 @@ fn same(animation: &str, frames: &[(u32, u32)]) {
     let prepared_animation = prepared(animation);
     for &(plate, frame) in frames {
         let stem = format!("plate-{plate:02}");
-        let exposed = |p: &restframe::queue::Prepared| {
+        let exposed = |p: &restframe::render::Prepared| {
             p.exposure()
                 .unwrap()
                 .0
@@ -56,7 +56,7 @@ fn plate_2_is_the_last_frame_of_the_lattice() {
 #[test]
 fn in_absolute_units_surface_color_never_comes_back() {
     let (rows, absolute) = (prepared("rows"), prepared("rows-absolute"));
-    let luminance = |prepared: &restframe::queue::Prepared, frame: u32| {
+    let luminance = |prepared: &restframe::render::Prepared, frame: u32| {
         film(prepared, frame)
             .xyz
             .iter()

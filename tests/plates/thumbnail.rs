@@ -5,7 +5,7 @@ use restframe::film::to_rgb8;
 use restframe::film::{Development, Film, develop};
 use restframe::frame::Frame;
 use restframe::probe::{Probe, probe};
-use restframe::queue::Prepared;
+use restframe::render::Prepared;
 use restframe::render::{Options, View, render};
 use restframe::scene::Scene;
 use restframe::trace::Stage;

@@ -3,7 +3,7 @@
 use super::{Changes, Image, options, scene, together};
 use restframe::film::Channels;
 use restframe::frame::Frame;
-use restframe::queue::Prepared;
+use restframe::render::Prepared;
 use restframe::render::{Options, film_bytes};
 use restframe::shot::Layer;
 
