@@ -36,7 +36,7 @@ fn sees(text: &str, pixel: [u32; 2]) -> Probe {
     let frame = Frame::new(shot, 1).unwrap();
     let scene = Scene::resolve(&frame, &prepared.library, None).unwrap();
     let stage = Stage::build(&scene.geometry, None);
-    let effects = Frame::new(shot, 1).unwrap().effects_at(pixel[1]);
+    let effects = frame.effects_at(pixel[1]);
     let view = View::new(&frame, &effects, &scene, &stage);
     probe(&frame, pixel, &view, &scene, 0.0)
 }
