@@ -12,7 +12,7 @@ use crate::relativity::Event;
 use crate::render::{self, Enough, LabPath, View, development};
 use crate::scene::{Lobe, Scene};
 use crate::shade::{Radiance, ShadeScratch};
-use crate::shot::{Accuracy, Spectra};
+use crate::shot::Spectra;
 use crate::trace::{Branch, Node, Scratch, Seen, ShadeTrees, Surface};
 use glam::DVec3;
 use serde::Serialize;
@@ -119,9 +119,7 @@ pub fn probe(
         light = if matches!(frame.accuracy.spectra, Spectra::Grid | Spectra::Rgb) {
             // The grid's own curves are made for sums: what bends is smoothed. Three numbers have
             // none.
-            let Accuracy { wavelengths, .. } = frame.accuracy;
-            let exact = view.shader_over(frame.sensor.window, wavelengths);
-            exact.radiance(&trees, root)
+            view.curves(frame).radiance(&trees, root)
         } else {
             shader.radiance(&trees, root)
         };

@@ -17,6 +17,8 @@ pub struct View<'a> {
     pub effects: ActiveEffects,
     motion: Arc<RelativeMotion>,
     shader: Shader,
+    /// Made when first asked for.
+    curves: OnceLock<Shader>,
     bounces: u32,
     cutoff: f64,
     /// Largest |ln D| between a surface and the camera, and between a lamp and a surface.
@@ -65,6 +67,7 @@ impl<'a> View<'a> {
             effects,
             motion,
             shader,
+            curves: OnceLock::new(),
             bounces,
             cutoff: frame.accuracy.cutoff,
         }
@@ -95,6 +98,13 @@ impl<'a> View<'a> {
             lamp_reach,
         };
         Shader::new(self.scene, &settings)
+    }
+
+    /// The shader of curves over the sensor's own window, made once for all pixels that are asked
+    /// about.
+    pub fn curves(&self, frame: &Frame<'_>) -> &Shader {
+        self.curves
+            .get_or_init(|| self.shader_over(frame.sensor.window, frame.accuracy.wavelengths))
     }
 
     /// A shader of this image over another band (nm), for curves rather than pictures: spectra are

@@ -10,6 +10,7 @@ use restframe::render::{Options, View, render};
 use restframe::scene::Scene;
 use restframe::trace::Stage;
 use std::path::Path;
+use std::sync::OnceLock;
 
 /// Pixels in a row.
 pub(crate) const WIDTH: u32 = 160;
@@ -61,8 +62,12 @@ pub(crate) fn prepared(stem: &str) -> Prepared {
 
 /// The film of one frame.
 pub(crate) fn film(prepared: &Prepared, frame: u32) -> Film {
-    let values = Frame::new(&prepared.shot, frame).unwrap();
-    let scene = Scene::resolve(&values, &prepared.library, None).unwrap();
+    let scene = Scene::resolve(
+        &Frame::new(&prepared.shot, frame).unwrap(),
+        &prepared.library,
+        None,
+    )
+    .unwrap();
     let stage = Stage::build(&scene.geometry, None);
     let options = Options {
         width: WIDTH,
@@ -70,7 +75,13 @@ pub(crate) fn film(prepared: &Prepared, frame: u32) -> Film {
         samples: SAMPLES,
         layers: Vec::new(),
     };
-    render(&values, &scene, &stage, &options, &|_| ())
+    render(
+        &Frame::new(&prepared.shot, frame).unwrap(),
+        &scene,
+        &stage,
+        &options,
+        &|_| (),
+    )
 }
 
 impl Thumbnail {
@@ -78,8 +89,8 @@ impl Thumbnail {
     pub(crate) fn new(stem: &str, frame: u32) -> Self {
         let prepared = prepared(stem);
         let shot = &prepared.shot;
-        let film = film(&prepared, frame);
         let values = Frame::new(shot, frame).unwrap();
+        let film = film(&prepared, frame);
         let exposure = prepared.exposure().unwrap().0.stops(&values);
         let development = Development {
             rgb_from_xyz: RGB_FROM_XYZ,
@@ -90,9 +101,13 @@ impl Thumbnail {
         let scene = Scene::resolve(&values, &prepared.library, None).unwrap();
         let stage = Stage::build(&scene.geometry, None);
         let (mut probes, mut directions) = (Vec::new(), Vec::new());
+        let effects = |y| values.effects_at(y);
+        let under = |effects| View::new(&values, &effects, &scene, &stage);
+        let mut view = under(effects(0));
         for y in 0..HEIGHT {
-            let effects = Frame::new(shot, frame).unwrap().effects_at(y);
-            let view = View::new(&values, &effects, &scene, &stage);
+            if y > 0 && effects(y) != effects(y - 1) {
+                view = under(effects(y));
+            }
             for x in 0..WIDTH {
                 probes.push(probe(&values, [x, y], &view, &scene, exposure));
                 let point = [
@@ -111,9 +126,10 @@ impl Thumbnail {
         }
     }
 
-    /// The only frame of a plate.
-    pub(crate) fn plate(number: u32) -> Self {
-        Self::new(&format!("plate-{number:02}"), 1)
+    /// The only frame of a plate, made once for all tests.
+    pub(crate) fn plate(number: usize) -> &'static Self {
+        static PLATES: [OnceLock<Thumbnail>; 13] = [const { OnceLock::new() }; 13];
+        PLATES[number].get_or_init(|| Self::new(&format!("plate-{number:02}"), 1))
     }
 
     /// The pixel at (x, y), if it sees a surface.
