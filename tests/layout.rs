@@ -13,7 +13,7 @@ const ROOMS: &[&[&str]] = &[
     &["relativity", "color", "plot"],
     &["spectrum", "film"],
     &["shot", "image"],
-    &["model", "plan"],
+    &["model", "frame"],
     &["accel", "scene"],
     &["trace"],
     &["shade"],
@@ -226,14 +226,14 @@ fn an_import_from_further_down_is_found_however_it_is_written() {
     for text in [
         "use crate::queue::FrameList;",
         "use crate::queue;",
-        "use crate::{plan, queue::{FrameList, Mode}};",
+        "use crate::{frame, queue::{FrameList, Mode}};",
         "use super::queue::FrameList;",
-        "use {std::fs, super::{plan, queue}};",
+        "use {std::fs, super::{frame, queue}};",
         "pub use crate::queue as q;",
         "fn f(_: &crate::queue::FrameList) {}",
         "fn f() { if true { crate::queue::options(); } }",
         "mod tests { use super::super::queue::Mode; }",
-        "mod tests { use super::super::{plan, queue}; }",
+        "mod tests { use super::super::{frame, queue}; }",
         "fn f() { println!(\"{}\", crate::queue::N) }",
         "#[cfg(test)] use crate::queue::Mode;",
         "impl From<f64> for crate::queue::Mode {}",
@@ -259,7 +259,7 @@ fn an_import_from_further_down_is_found_however_it_is_written() {
 #[test]
 fn what_is_no_import_from_another_room_is_none() {
     for text in [
-        "use crate::scene::Scene;\nuse super::{plan, scene::Scene};",
+        "use crate::scene::Scene;\nuse super::{frame, scene::Scene};",
         "/// See [`FrameList`](crate::queue::FrameList).\nfn f() {}",
         "// use crate::queue::Mode;\n/* crate::queue */",
         "const TEXT: &str = \"crate::queue::Mode\"; const RAW: &str = r#\"super::queue\"#;",

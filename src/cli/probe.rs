@@ -1,9 +1,10 @@
 //! `restframe probe`.
 
 use super::{Failed, ProbeArguments, failed, mistaken, misused, print, print_json};
+use crate::frame::Frame;
 use crate::plot::{Page, lay_out, svg};
-use crate::probe::{Probe, ProbeNode, effects_at, plot, probe, wide_band};
-use crate::render::{Prepared, View, motion_mistake};
+use crate::probe::{Probe, ProbeNode, plot, probe, wide_band};
+use crate::render::{Prepared, View};
 use crate::scene::Scene;
 use crate::shot::SensorColor;
 use crate::store::{Names, write_atomically};
@@ -44,17 +45,17 @@ pub(super) fn run(arguments: &ProbeArguments) -> Result<(), Failed> {
         )));
     }
     let (exposing, _) = prepared.exposure().map_err(|m| mistaken(&m))?;
-    let scene = Scene::resolve(shot, &prepared.library, frame, None).map_err(|m| mistaken(&m))?;
+    let frame = &Frame::new(shot, frame).map_err(|m| mistaken(&m))?;
+    let scene = Scene::resolve(frame, &prepared.library, None).map_err(|m| mistaken(&m))?;
     let stage = build_aggregate(&scene.geometry, None);
-    let effects = effects_at(shot, pixel[1]);
-    let view = View::new(shot, frame, &effects, &scene, &stage)
-        .map_err(|error| mistaken(&motion_mistake(shot, &error)))?;
-    let stops = exposing.stops(frame, shot.shot.frames);
-    let answer = probe(shot, frame, pixel, &view, &scene, stops);
+    let effects = frame.effects_at(pixel[1]);
+    let view = View::new(frame, &effects, &scene, &stage);
+    let stops = exposing.stops(frame);
+    let answer = probe(frame, pixel, &view, &scene, stops);
     if let Some(file) = &arguments.plot {
         let stem = || Names::new(shot).stem;
         let title = shot.shot.title.clone().unwrap_or_else(stem);
-        let wide = wide_band(shot, &answer, &view, &scene);
+        let wide = wide_band(frame, &answer, &view, &scene);
         let plot = plot(&title, shot.sensor.window, &answer, &wide);
         let text = svg(&lay_out(&plot, PAGE));
         write_atomically(file, text.as_bytes()).map_err(|error| failed(&error.to_string()))?;

@@ -92,7 +92,7 @@ fn open(
     let list = JobList::open(shots, settings);
     let mut list = list.map_err(|error| misused(&error.to_string()))?;
     for job in &list.jobs {
-        let (shot, size) = (job.folder.shot(), job.folder.keys.picture().size);
+        let (shot, size) = (job.folder.shot(), job.folder.keys.resolution().size);
         if let Some(why) = foreseen(shot, size) {
             let path = shot.path.display();
             settings.progress.warn(&format!("{path}: {why}"));

@@ -1,8 +1,8 @@
 //! `restframe study`.
 
 use super::{Failed, StudyArguments, failed, mistaken, misused, pool, print, say, warn};
-use crate::plan;
-use crate::render::{Options, Prepared, motion_mistake};
+use crate::frame::Frames;
+use crate::render::{Options, Prepared};
 use crate::store::{Names, Request, write_atomically};
 use crate::study::{self, StudyError, report};
 use std::path::Path;
@@ -80,10 +80,11 @@ fn frame(prepared: &Prepared, asked: Option<u32>) -> Result<u32, Failed> {
         };
     }
     let mut most = (0, 1);
-    for frame in 1..=frames {
-        let called = plan::called(shot, frame, &shot.effects)
-            .map_err(|error| mistaken(&motion_mistake(shot, &error)))?;
-        most = most.max((called.count(), frame));
+    let mut all = Frames::new(shot);
+    for number in 1..=frames {
+        let frame = all.at(number).map_err(|m| mistaken(&m))?;
+        let called = frame.active_effects(&frame.effects);
+        most = most.max((called.count(), number));
     }
     Ok(most.1)
 }

@@ -7,11 +7,12 @@ pub use inset::{inset, insets};
 pub use plot::{WideBand, plot, wide_band};
 
 use crate::film::{Channels, SILENT};
+use crate::frame::Frame;
 use crate::relativity::Event;
 use crate::render::{self, Enough, LabPath, View, development};
 use crate::scene::{Lobe, Scene};
 use crate::shade::{Radiance, ShadeScratch};
-use crate::shot::{Effects, Shot, Spectra};
+use crate::shot::Spectra;
 use crate::trace::{Branch, Node, Scratch, Seen, ShadeTrees, Surface};
 use glam::DVec3;
 use serde::Serialize;
@@ -97,20 +98,9 @@ pub struct ProbeEvent {
     pub x: [f64; 3],
 }
 
-/// The effects under which a pixel of this row is seen: those of the splice that it lies in.
-pub fn effects_at(shot: &Shot, row: u32) -> Effects {
-    let [_, height] = shot.image.size;
-    let mut splices = shot.splice.iter().rev();
-    let splice = splices.find(|splice| render::rows(splice, height).contains(&row));
-    splice.map_or(shot.effects, |splice| {
-        render::spliced(&shot.effects, splice)
-    })
-}
-
-/// Probes the centre of `pixel`, which must lie in the shot's image. `exposure` is in stops.
+/// Probes the centre of `pixel`, which must lie in the frame's image. `exposure` is in stops.
 pub fn probe(
-    shot: &Shot,
-    frame: u32,
+    frame: &Frame<'_>,
     pixel: [u32; 2],
     view: &View<'_>,
     scene: &Scene,
@@ -121,38 +111,40 @@ pub fn probe(
     let (mut chain, mut cut, mut direction) = (Vec::new(), 0.0, None);
     let mut enough = None;
     let (mut channels, mut xyz) = ([0.0; 3], [0.0; 3]);
-    if let Some((trees, towards)) = look(shot, pixel, view, scene) {
+    if let Some((trees, towards)) = look(frame, pixel, view, scene) {
         let root = trees.roots[0];
         chain = self::chain(view, scene, trees.nodes_of(root), towards);
         cut = root.cut;
         enough = enough_bounces(view, cut, towards);
-        light = if matches!(shot.accuracy.spectra, Spectra::Grid | Spectra::Rgb) {
+        light = if matches!(frame.accuracy.spectra, Spectra::Grid | Spectra::Rgb) {
             // The grid's own curves are made for sums: what bends is smoothed. Three numbers have
             // none.
-            view.curves(shot).radiance(&trees, root)
+            view.curves(frame).radiance(&trees, root)
         } else {
             shader.radiance(&trees, root)
         };
         // As the picture has them, however spectra are held.
         let mut scratch = ShadeScratch::default();
         channels = shader.xyz(&trees, root, &mut scratch);
-        xyz = match render::channels(shot) {
+        xyz = match render::channels(frame.sensor.color) {
             Channels::Xyz => channels,
-            Channels::Bands => view.eye(shot).xyz(&trees, root, &mut scratch),
+            Channels::Bands => view.eye(frame).xyz(&trees, root, &mut scratch),
         };
         direction = Some(towards);
     }
     let radiance = light.total();
     let gain = (exposure.exp2() / 100.0).min(f64::MAX);
-    let rgb = development(shot, exposure).rgb_from_xyz.map(|row| {
-        // Held to a fraction of the numbers, so that their sum is one.
-        const MOST: f64 = f64::MAX / 4.0;
-        let terms = row.iter().zip(channels);
-        let terms = terms.map(|(m, v)| (m * (v * gain)).clamp(-MOST, MOST));
-        terms.sum::<f64>()
-    });
+    let rgb = development(frame.sensor.color, exposure)
+        .rgb_from_xyz
+        .map(|row| {
+            // Held to a fraction of the numbers, so that their sum is one.
+            const MOST: f64 = f64::MAX / 4.0;
+            let terms = row.iter().zip(channels);
+            let terms = terms.map(|(m, v)| (m * (v * gain)).clamp(-MOST, MOST));
+            terms.sum::<f64>()
+        });
     Probe {
-        frame,
+        frame: frame.number,
         pixel,
         direction: direction.map(|direction| direction.to_array()),
         hit: chain.first().and_then(|node| node.hit.clone()),
@@ -171,12 +163,12 @@ pub fn probe(
 /// The shade tree of the ray through the centre of `pixel`, and its direction in the camera's rest
 /// frame; None where the camera's projection has no such ray.
 fn look(
-    shot: &Shot,
+    frame: &Frame<'_>,
     pixel: [u32; 2],
     view: &View<'_>,
     scene: &Scene,
 ) -> Option<(ShadeTrees, DVec3)> {
-    let point = [0, 1].map(|i| (f64::from(pixel[i]) + 0.5) / f64::from(shot.image.size[i]));
+    let point = [0, 1].map(|i| (f64::from(pixel[i]) + 0.5) / f64::from(frame.image.size[i]));
     let direction = scene.camera.looks_along(point)?;
     let mut trees = ShadeTrees::default();
     view.tracer()

@@ -4,11 +4,11 @@
 use super::{Probe, look};
 use crate::color::cie::{RANGE_NM, xyz_bar};
 use crate::color::spaces::{RGB_FROM_XYZ, apply, encode};
+use crate::frame::Frame;
 use crate::plot::{Axis, Color, Panel, Plot, Scale, Series, Stroke, Tint};
 use crate::render::View;
 use crate::scene::Scene;
 use crate::shade::Radiance;
-use crate::shot::Shot;
 use crate::spectrum::{catmull_rom, planck};
 
 /// The band that is always shown, nm: that of the 1990 paper's curves, and on to 50 µm for the
@@ -47,11 +47,11 @@ pub struct WideBand {
 }
 
 /// The light of the pixel that `probe` tells of, with the same view, over a wide band.
-pub fn wide_band(shot: &Shot, probe: &Probe, view: &View<'_>, scene: &Scene) -> WideBand {
-    let band_nm = band(probe, shot.sensor.window, view, scene);
+pub fn wide_band(frame: &Frame<'_>, probe: &Probe, view: &View<'_>, scene: &Scene) -> WideBand {
+    let band_nm = band(probe, frame.sensor.window, view, scene);
     let count = ((band_nm[1] / band_nm[0]).ln() / SPACING).ceil() as u32;
     let shader = view.shader_over(band_nm, count);
-    let light = match look(shot, probe.pixel, view, scene) {
+    let light = match look(frame, probe.pixel, view, scene) {
         Some((trees, _)) => shader.radiance(&trees, trees.roots[0]),
         None => Radiance::new(count as usize),
     };
@@ -72,7 +72,7 @@ fn band(probe: &Probe, window_nm: [f64; 2], view: &View<'_>, scene: &Scene) -> [
     widen(window_nm);
     for node in &probe.chain {
         let doppler = match (&node.hit, node.parent) {
-            _ if !view.called.doppler => 1.0,
+            _ if !view.effects.doppler => 1.0,
             (Some(hit), _) => hit.doppler,
             (None, None) => node.doppler,
             (None, Some(parent)) => {
@@ -84,7 +84,7 @@ fn band(probe: &Probe, window_nm: [f64; 2], view: &View<'_>, scene: &Scene) -> [
         let name = node.hit.as_ref().map(|hit| &hit.material);
         let material = scene.materials.iter().find(|m| Some(&m.name) == name);
         let thermal = material.and_then(|m| m.thermal.as_ref());
-        if let Some(thermal) = thermal.filter(|_| view.called.thermal) {
+        if let Some(thermal) = thermal.filter(|_| view.effects.thermal) {
             let peak = planck::peak_nm(thermal.temperature_k) / doppler;
             widen(THERMAL.map(|share| share * peak));
         }

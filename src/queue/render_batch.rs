@@ -6,13 +6,12 @@ use super::memory::{TooLarge, check_memory};
 use super::settings::Settings;
 use crate::accel::Aggregate;
 use crate::film::{Film, SILENT};
-use crate::plan::{self, MotionError};
+use crate::frame::Frame;
 use crate::plot::Plot;
 use crate::probe;
 use crate::progress::Progress;
 use crate::render::{
-    Exposing, Member, Prepared, Together, TogetherError, Watch, left_out_warning, motion_mistake,
-    render_together,
+    Exposing, Member, Prepared, Stopped, Together, Watch, left_out_warning, render_together,
 };
 use crate::scene::Scene;
 use crate::shot::Mistakes;
@@ -77,16 +76,13 @@ pub(super) fn render(
     }
     let first = batch[0].task.job;
     let kept = jobs[first].kept.take();
-    let scenes = scenes(jobs, batch, kept.as_ref().map(|(scene, _)| scene))?;
     let jobs = &*jobs;
+    let frames = frames(jobs, batch)?;
+    let scenes = scenes(jobs, batch, &frames, kept.as_ref().map(|(scene, _)| scene))?;
     let stage = stage(kept, &scenes[0]);
     let prepare = begun.elapsed().as_secs_f64();
-    let member = |(claimed, scene)| {
-        let ClaimedFrame { task, .. }: &ClaimedFrame = claimed;
-        let (shot, frame) = (jobs[task.job].folder.shot(), task.frame);
-        Member { shot, frame, scene }
-    };
-    let members: Vec<Member<'_>> = batch.iter().zip(&scenes).map(member).collect();
+    let member = |(frame, scene)| Member { frame, scene };
+    let members: Vec<Member<'_>> = frames.iter().zip(&scenes).map(member).collect();
     let options = jobs[first].options();
     let rays = f64::from(options.width) * f64::from(options.height) * f64::from(options.samples);
     let work: f64 = batch.iter().map(|claimed| claimed.task.work).sum();
@@ -96,16 +92,13 @@ pub(super) fn render(
         stop: settings.stop,
     };
     let rendered = render_together(&members, &stage, options, watch);
-    let mut together = rendered.map_err(|error| match error {
-        TogetherError::Stopped => Unrendered::Stopped,
-        TogetherError::Motion(error) => astray(&members, &error),
-    })?;
+    let mut together = rendered.map_err(|Stopped| Unrendered::Stopped)?;
     together.prepare += prepare;
     let begun = Instant::now();
     let stop = settings.stop;
-    let frames = batch.par_iter().zip(&members).zip(&together.films);
-    let probed = frames.map(|((claimed, member), film)| {
-        let exposure = stops(&jobs[claimed.task.job], claimed.task.frame);
+    let films = batch.par_iter().zip(&members).zip(&together.films);
+    let probed = films.map(|((claimed, member), film)| {
+        let exposure = stops(&jobs[claimed.task.job], member.frame);
         probe(*member, &stage, film, exposure, stop)
     });
     let probed = probed.collect();
@@ -127,22 +120,21 @@ fn probe(
     exposure: f64,
     stop: &AtomicBool,
 ) -> Option<Probed> {
-    let is_quick = member.shot.inset.is_empty() && film.left_out.share() <= SILENT;
+    let is_quick = member.frame.insets.is_empty() && film.left_out.share() <= SILENT;
     if !is_quick && stop.load(Ordering::Relaxed) {
         return None;
     }
     let size = [film.width, film.height];
     Some(Probed {
-        insets: probe::insets(member, stage, exposure, size).unwrap_or_default(),
+        insets: probe::insets(member, stage, exposure, size),
         left_out: left_out_warning(member, stage, film),
     })
 }
 
 /// Exposure of a frame, stops.
-pub(super) fn stops(job: &Job, frame: u32) -> f64 {
-    let frames = job.folder.shot().shot.frames;
+pub(super) fn stops(job: &Job, frame: &Frame<'_>) -> f64 {
     let exposing = job.exposing.as_ref();
-    exposing.map_or(0.0, |exposing| exposing.stops(frame, frames))
+    exposing.map_or(0.0, |exposing| exposing.stops(frame))
 }
 
 /// Finds a shot's exposure, once.
@@ -162,11 +154,21 @@ fn meter(job: &mut Job, progress: &Progress<'_>) -> Result<(), Mistakes> {
     Ok(())
 }
 
+/// The frames of a batch.
+fn frames<'a>(jobs: &'a [Job], batch: &[ClaimedFrame]) -> Result<Vec<Frame<'a>>, Unrendered> {
+    let frame = |(index, ClaimedFrame { task, .. }): (usize, &ClaimedFrame)| {
+        let frame = Frame::new(jobs[task.job].folder.shot(), task.frame);
+        frame.map_err(|m| mistaken(index, m))
+    };
+    batch.iter().enumerate().map(frame).collect()
+}
+
 /// The scenes of a batch; bodies are taken over from the last one of the same shot, first from
 /// `kept`, which is of the first frame's.
 fn scenes(
     jobs: &[Job],
     batch: &[ClaimedFrame],
+    frames: &[Frame<'_>],
     kept: Option<&Scene>,
 ) -> Result<Vec<Scene>, Unrendered> {
     let mut scenes: Vec<Scene> = Vec::with_capacity(batch.len());
@@ -176,12 +178,7 @@ fn scenes(
         let last = (0..index).rev().find(|&i| batch[i].task.job == number);
         let kept = kept.filter(|_| number == batch[0].task.job);
         let earlier = last.map(|last| &scenes[last]).or(kept);
-        let scene = Scene::resolve(
-            &prepared.shot,
-            &prepared.library,
-            claimed.task.frame,
-            earlier,
-        );
+        let scene = Scene::resolve(&frames[index], &prepared.library, earlier);
         scenes.push(scene.map_err(|m| mistaken(index, m))?);
     }
     Ok(scenes)
@@ -196,14 +193,6 @@ fn stage(kept: Option<(Scene, Aggregate)>, scene: &Scene) -> Aggregate {
             build_aggregate(&scene.geometry, earlier)
         }
     }
-}
-
-/// The member that a worldline without velocity is of: others may have one of its name.
-fn astray(members: &[Member<'_>], error: &MotionError) -> Unrendered {
-    let fails =
-        |member: &Member<'_>| plan::celerity(member.shot, &error.worldline, member.frame).is_err();
-    let index = members.iter().position(fails).unwrap_or(0);
-    mistaken(index, motion_mistake(members[index].shot, error))
 }
 
 fn mistaken(index: usize, mistakes: Mistakes) -> Unrendered {

@@ -7,6 +7,8 @@ use super::record::{new_record, warnings};
 use super::render_batch::{Probed, RenderedBatch, stops};
 use super::settings::{Output, RenderedFrame, Settings};
 use crate::film::Film;
+use crate::frame::Frame;
+use crate::plot::Plot;
 use crate::progress::FrameOutcome;
 use crate::render::{PictureInfo, Pictures, Together, encode};
 use crate::scene::Scene;
@@ -63,15 +65,8 @@ pub(super) fn write(
         let encoded: Vec<_> = chunk
             .into_par_iter()
             .map(|(claimed, scene, film, probed)| {
-                let job = &jobs[claimed.task.job];
-                let shot = job.folder.shot();
-                let info = PictureInfo {
-                    exposure_stops: stops(job, claimed.task.frame),
-                    samples: job.options().samples,
-                    fingerprint: Some(&claimed.key.fingerprint),
-                };
                 let Probed { insets, left_out } = probed;
-                let made = encode(shot, claimed.task.frame, scene, &film, &insets, info);
+                let made = encoded(&jobs[claimed.task.job], &claimed, scene, &film, &insets);
                 (claimed, made, film.left_out.share(), left_out)
             })
             .collect();
@@ -87,17 +82,17 @@ pub(super) fn write(
             };
             match made {
                 _ if job.halted.is_some() => settings.progress.discard(claimed.task.work),
-                Ok(made) => {
+                Ok((made, record)) => {
                     let record = Record {
                         warnings: warnings(&made, left_out),
                         cut,
                         seconds,
                         shared: u32::try_from(shared).unwrap_or(u32::MAX),
-                        ..new_record(job, claimed.task.frame, &claimed.key)
+                        ..record
                     };
                     put(job, &claimed.task, made, record, settings);
                 }
-                Err(error) => job.fail(&claimed.task, &error.to_string(), settings.progress),
+                Err(error) => job.fail(&claimed.task, &error, settings.progress),
             }
             // Only now may another process look at the frame.
             drop(claimed.claim);
@@ -106,6 +101,27 @@ pub(super) fn write(
     }
     drop(rest);
     jobs[first].kept = scenes.into_iter().next().map(|scene| (scene, stage));
+}
+
+/// A film as files, and their record but for its files, times and warnings.
+///
+/// # Errors
+/// When an encoder refuses.
+fn encoded(
+    job: &Job,
+    claimed: &ClaimedFrame,
+    scene: &Scene,
+    film: &Film,
+    insets: &[Option<Plot>],
+) -> Result<(Pictures, Record), String> {
+    let frame = Frame::new(job.folder.shot(), claimed.task.frame).map_err(|m| m.to_string())?;
+    let info = PictureInfo {
+        exposure_stops: stops(job, &frame),
+        samples: job.options().samples,
+        fingerprint: Some(&claimed.key.fingerprint),
+    };
+    let made = encode(&frame, scene, film, insets, info).map_err(|error| error.to_string())?;
+    Ok((made, new_record(job, &frame, &claimed.key)))
 }
 
 /// The files of a frame to where they go, then its record.

@@ -10,9 +10,10 @@ use crate::film::{Film, LeftOut};
 use crate::trace::Samples;
 use rayon::prelude::*;
 
-/// It was asked to stop.
-#[derive(Debug)]
-pub(super) struct Stopped;
+/// Rendering was asked to stop.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+#[error("stopped")]
+pub struct Stopped;
 
 /// What of the time went into what: the shares add up to 1.
 pub(super) struct Shares {

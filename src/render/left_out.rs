@@ -1,10 +1,9 @@
 //! How many bounces leave out next to nothing of an image's light.
 
-use super::view::{Standings, Views};
+use super::view::{RelativeMotions, Views};
 use super::{Member, View, channels};
 use crate::accel::Aggregate;
 use crate::film::{Channels, Film, LeftOut, SILENT};
-use crate::plan::MotionError;
 use crate::shade::ShadeScratch;
 use crate::shot::MOST_BOUNCES;
 use crate::trace::{Root, Scratch, ShadeTrees, Tracer};
@@ -28,31 +27,28 @@ pub enum Enough {
 
 /// The least bounces with which an image of `size` pixels would leave out no more than [`SILENT`],
 /// being one of which `left_out` was left out. Found by a sample of its rays, followed deeper.
-///
-/// # Errors
-/// Where a worldline has no velocity in this frame.
 pub fn enough_bounces(
     member: Member<'_>,
     stage: &Aggregate,
     size: [u32; 2],
     left_out: &LeftOut,
-) -> Result<Enough, MotionError> {
-    let views = Views::new(member, stage, size[1], &Standings::default())?;
-    let own = member.shot.effects.bounces;
+) -> Enough {
+    let views = Views::new(member, stage, size[1], &RelativeMotions::default());
+    let own = member.frame.effects.bounces;
     for side in SIDES {
         let sample = Sample {
             views: &views,
-            channels: channels(member.shot),
+            channels: channels(member.frame.sensor.color),
             size,
             side,
         };
         let here = sample.share(own);
         if here > 0.0 {
             let most = here * (SILENT * MARGIN / left_out.share()).min(1.0);
-            return Ok(least(own, |bounces| sample.share(bounces) <= most));
+            return least(own, |bounces| sample.share(bounces) <= most);
         }
     }
-    Ok(Enough::None)
+    Enough::None
 }
 
 /// How much of an image's light was not followed, and how many bounces would do; None if it is little.
@@ -63,13 +59,13 @@ pub fn left_out_warning(member: Member<'_>, stage: &Aggregate, film: &Film) -> O
     }
     let enough = enough_bounces(member, stage, [film.width, film.height], &film.left_out);
     let what_would_do = match enough {
-        Ok(Enough::Bounces(bounces)) => {
+        Enough::Bounces(bounces) => {
             let silent = percent(SILENT);
             format!("effects.bounces = {bounces} would leave out less than {silent}")
         }
-        _ => format!(
+        Enough::None => format!(
             "no number of effects.bounces would do, as it is too faint for accuracy.cutoff = {} or goes on for ever",
-            member.shot.accuracy.cutoff
+            member.frame.accuracy.cutoff
         ),
     };
     Some(format!(

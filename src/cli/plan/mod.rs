@@ -5,8 +5,8 @@ mod words;
 
 use super::answer::{Answer, Reader};
 use super::{Failed, PlanArguments, failed, frames, mistaken, misused, print};
-use crate::plan::Reason;
-use crate::queue::{Forecast, FrameForecast, Totals, effect_names};
+use crate::frame::Reason;
+use crate::queue::{Forecast, FrameForecast, Totals};
 use crate::shot::{self, Beaming};
 use crate::store::{FolderError, ShotFolder, Status};
 use indexmap::IndexSet;
@@ -115,7 +115,7 @@ impl Run {
             0 => step <= 1,
             _ => step == u32::from(trace != first.trace),
         };
-        let effects = effect_names(&first.called) == effect_names(&next.called);
+        let effects = first.called.names() == next.called.names();
         next.frame == frame + 1 && same_step && first.status == next.status && effects
     }
 }
@@ -160,7 +160,7 @@ impl<'a> Frame<'a> {
                 mirror: called.mirror,
                 refraction: called.refraction,
             },
-            because: &called.because,
+            because: &called.reasons,
             trace: planned.trace,
             status: word(&planned.status),
             seconds: planned.seconds,
