@@ -8,9 +8,10 @@ mod shell;
 use divan::Bencher;
 use rayon::prelude::*;
 use restframe::film::Film;
-use restframe::queue::{PictureInfo, pictures};
 use restframe::render::Prepared;
-use restframe::render::{Member, Options, Watch, film_bytes, render, render_together};
+use restframe::render::{
+    Member, Options, PictureInfo, Watch, encode, film_bytes, render, render_together,
+};
 use restframe::scene::Scene;
 use restframe::trace::Stage;
 use shell::shell;
@@ -163,7 +164,7 @@ fn time_ramp(frames: u32) {
             samples: 16,
             fingerprint: None,
         };
-        let files = pictures(&shot, frame, scene, &stage, film, taken);
+        let files = encode(&shot, frame, scene, film, &[], taken);
         files.expect("it can be encoded").files[0].1.len()
     };
 

@@ -9,16 +9,17 @@
 //! rounded to 1, 2 or 5. Curves are read as their author wrote them, however `accuracy.spectra` holds
 //! them for the picture.
 
-use super::look;
 use super::plot::{SPACING, SURFACE, THERMAL_LIGHT, UNIT, curve, digits, peak, visible};
+use super::{effects_at, look};
 use crate::color::cie;
 use crate::film::Channels;
-use crate::plot::{Axis, Color, Panel, Plot, Scale, Stroke, round_up};
-use crate::render::{self, View};
+use crate::plan::MotionError;
+use crate::plot::{Axis, Color, LEAST_INSET, Panel, Plot, Scale, Stroke, round_up};
+use crate::render::{self, Member, View};
 use crate::scene::{Scene, Thermal};
 use crate::shade::Radiance;
-use crate::shot::{Sensor, Shot};
-use crate::trace::{Seen, ShadeTrees};
+use crate::shot::{Effects, Sensor, Shot};
+use crate::trace::{Seen, ShadeTrees, Stage};
 
 /// Grey, so that it is told from the others without seeing colours.
 const SUM: Color = [165, 165, 165];
@@ -28,6 +29,41 @@ const HEADROOM: f64 = 1.03;
 const BESIDE: f64 = 10.0;
 /// Most wavelengths of a curve: more than any picture has columns for it.
 const MOST: f64 = 8192.0;
+
+/// What the insets of an image of `size` pixels show, in the order of the shot's; None where one is
+/// too small to be read. Exposure is in stops.
+pub fn insets(
+    member: Member<'_>,
+    stage: &Stage,
+    exposure: f64,
+    size: [u32; 2],
+) -> Result<Vec<Option<Plot>>, MotionError> {
+    let Member { shot, frame, scene } = member;
+    // Insets under the same effects are seen in one view.
+    let mut views: Vec<(Effects, View<'_>)> = Vec::new();
+    let mut plots = Vec::new();
+    for inset in &shot.inset {
+        let (_, [_, height]) = inset.place_in(size);
+        if f64::from(height) < LEAST_INSET {
+            plots.push(None);
+            continue;
+        }
+        let pixel = inset.pixel_of(shot.image.size);
+        let effects = effects_at(shot, pixel[1]);
+        let known = views.iter().position(|(under, _)| *under == effects);
+        let place = match known {
+            Some(place) => place,
+            None => {
+                let view = View::new(shot, frame, &effects, scene, stage)?;
+                views.push((effects, view));
+                views.len() - 1
+            }
+        };
+        let (_, view) = &views[place];
+        plots.push(Some(self::inset(shot, pixel, view, scene, exposure)));
+    }
+    Ok(plots)
+}
 
 /// The plot of what the centre of `pixel`, which lies in the shot's image, sees in `view`. Exposure
 /// is in stops.

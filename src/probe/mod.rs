@@ -3,7 +3,7 @@
 mod inset;
 mod plot;
 
-pub use inset::inset;
+pub use inset::{inset, insets};
 pub use plot::{WideBand, plot, wide_band};
 
 use crate::film::{Channels, SILENT};

@@ -2,24 +2,19 @@
 
 use super::cost::frame_effects;
 use super::job::Job;
-use super::picture::Pictures;
+use super::render_batch::stops;
 use crate::plan::FrameKey;
+use crate::render::Pictures;
 use crate::store::{Record, Seconds, host, now, peak_memory_mib};
 
-/// Exposure of a frame, stops.
-pub(super) fn stops(job: &Job, frame: u32) -> f64 {
-    let frames = job.folder.shot().shot.frames;
-    let exposing = job.exposing.as_ref();
-    exposing.map_or(0.0, |exposing| exposing.stops(frame, frames))
-}
-
 /// What a frame's viewer should know.
-pub(super) fn warnings(made: &Pictures) -> Vec<String> {
+pub(super) fn warnings(made: &Pictures, left_out: Option<String>) -> Vec<String> {
     let saturated = (made.saturated > 0).then(|| {
         let values = made.saturated;
         format!("{values} values beyond what a file can hold were clamped")
     });
-    saturated.into_iter().chain(made.warnings.clone()).collect()
+    let seen = saturated.into_iter().chain(left_out);
+    seen.chain(made.warnings.clone()).collect()
 }
 
 /// The record of a frame, but for its files, times and warnings.

@@ -3,18 +3,20 @@
 use super::batch::{ClaimedFrame, FrameTask};
 use super::job::Job;
 use super::memory::most_developed;
-use super::picture::{PictureInfo, Pictures, pictures};
-use super::record::{new_record, stops, warnings};
-use super::render_batch::RenderedBatch;
+use super::record::{new_record, warnings};
+use super::render_batch::{Probed, RenderedBatch, stops};
 use super::settings::{Output, RenderedFrame, Settings};
 use crate::film::Film;
 use crate::progress::FrameOutcome;
-use crate::render::Together;
+use crate::render::{PictureInfo, Pictures, Together, encode};
 use crate::scene::Scene;
 use crate::store::{FileRecord, Record, Seconds, is_full, now, twice, write_atomically};
 use rayon::prelude::*;
 use std::io;
 use std::time::{Duration, Instant};
+
+/// A frame, its scene, its film, and what its picture shows beside that.
+type Rendered<'a> = (ClaimedFrame, &'a Scene, Film, Probed);
 
 /// Films to files, as many at once as threads and memory allow; a frame is settled when it is on the
 /// disk.
@@ -29,6 +31,7 @@ pub(super) fn write(
         scenes,
         stage,
         together,
+        probed,
     } = rendered;
     let Together {
         films,
@@ -38,25 +41,28 @@ pub(super) fn write(
     } = together;
     let shared = batch.len();
     let part = |seconds: f64| seconds / shared as f64;
-    let mut rest = batch.into_iter().zip(&scenes).zip(films);
+    let frames = batch.into_iter().zip(&scenes).zip(films).zip(probed);
+    let mut rest = frames.filter_map(|(((claimed, scene), film), probed)| {
+        probed.map(|probed| (claimed, scene, film, probed))
+    });
     let most = most_developed(jobs[first].options(), rayon::current_num_threads());
     let mut deadline = ShutdownDeadline::default();
     loop {
-        let chunk: Vec<((ClaimedFrame, &Scene), Film)> = rest.by_ref().take(most).collect();
+        let chunk: Vec<Rendered<'_>> = rest.by_ref().take(most).collect();
         if chunk.is_empty() || settings.is_stopped() && deadline.is_over() {
             break;
         }
         // A picture that there is no room for need not be made.
         let (lost, chunk): (Vec<_>, Vec<_>) = chunk
             .into_iter()
-            .partition(|((claimed, _), _)| jobs[claimed.task.job].halted.is_some());
-        for ((claimed, _), _) in lost {
+            .partition(|(claimed, ..)| jobs[claimed.task.job].halted.is_some());
+        for (claimed, ..) in lost {
             settings.progress.discard(claimed.task.work);
         }
         let begun = Instant::now();
         let encoded: Vec<_> = chunk
             .into_par_iter()
-            .map(|((claimed, scene), film)| {
+            .map(|(claimed, scene, film, probed)| {
                 let job = &jobs[claimed.task.job];
                 let shot = job.folder.shot();
                 let info = PictureInfo {
@@ -64,26 +70,27 @@ pub(super) fn write(
                     samples: job.options().samples,
                     fingerprint: Some(&claimed.key.fingerprint),
                 };
-                let made = pictures(shot, claimed.task.frame, scene, &stage, &film, info);
-                (claimed, made)
+                let Probed { insets, left_out } = probed;
+                let made = encode(shot, claimed.task.frame, scene, &film, &insets, info);
+                (claimed, made, film.left_out.share(), left_out)
             })
             .collect();
-        let encode = begun.elapsed().as_secs_f64() / encoded.len() as f64;
-        for (claimed, made) in encoded {
+        let encode_seconds = begun.elapsed().as_secs_f64() / encoded.len() as f64;
+        for (claimed, made, cut, left_out) in encoded {
             let job = &mut jobs[claimed.task.job];
             let seconds = Seconds {
                 prepare: part(prepare),
                 trace: part(trace),
                 shade: part(shade),
-                encode,
+                encode: encode_seconds,
                 write: 0.0,
             };
             match made {
                 _ if job.halted.is_some() => settings.progress.discard(claimed.task.work),
                 Ok(made) => {
                     let record = Record {
-                        warnings: warnings(&made),
-                        cut: made.cut,
+                        warnings: warnings(&made, left_out),
+                        cut,
                         seconds,
                         shared: u32::try_from(shared).unwrap_or(u32::MAX),
                         ..new_record(job, claimed.task.frame, &claimed.key)

@@ -2,7 +2,7 @@
 
 use super::view::{Standings, Views};
 use super::{Member, View, channels};
-use crate::film::{Channels, LeftOut, SILENT};
+use crate::film::{Channels, Film, LeftOut, SILENT};
 use crate::plan::MotionError;
 use crate::shade::ShadeScratch;
 use crate::shot::MOST_BOUNCES;
@@ -52,6 +52,36 @@ pub fn enough_bounces(
         }
     }
     Ok(Enough::None)
+}
+
+/// How much of an image's light was not followed, and how many bounces would do; None if it is little.
+pub fn left_out_warning(member: Member<'_>, stage: &Stage, film: &Film) -> Option<String> {
+    let share = film.left_out.share();
+    if share <= SILENT {
+        return None;
+    }
+    let enough = enough_bounces(member, stage, [film.width, film.height], &film.left_out);
+    let what_would_do = match enough {
+        Ok(Enough::Bounces(bounces)) => {
+            let silent = percent(SILENT);
+            format!("effects.bounces = {bounces} would leave out less than {silent}")
+        }
+        _ => format!(
+            "no number of effects.bounces would do, as it is too faint for accuracy.cutoff = {} or goes on for ever",
+            member.shot.accuracy.cutoff
+        ),
+    };
+    Some(format!(
+        "about {} of its light is left out, too deep in mirrors and glass: {what_would_do}",
+        percent(share)
+    ))
+}
+
+/// Two digits: `1.6 %`.
+fn percent(share: f64) -> String {
+    let value = 100.0 * share;
+    let decimals = if value < 9.95 { 1 } else { 0 };
+    format!("{value:.decimals$} %")
 }
 
 /// The least number above `own` that will do; more do where fewer do.

@@ -9,6 +9,7 @@ use crate::trace::Stage;
 use std::ops::Range;
 
 mod band;
+mod encode;
 mod expose;
 mod lab_path;
 mod left_out;
@@ -20,8 +21,9 @@ mod shifts;
 mod together;
 mod view;
 
+pub use encode::{PictureInfo, Pictures, encode};
 pub use lab_path::LabPath;
-pub use left_out::{Enough, enough_bounces};
+pub use left_out::{Enough, enough_bounces, left_out_warning};
 pub(crate) use left_out::{deeper, least};
 pub use meter::{Metered, metered_exposure, motion_mistake};
 pub use prepared::{Exposing, Prepared};

@@ -2,9 +2,10 @@
 
 use super::StudyError;
 use crate::film::{Film, develop};
-use crate::queue::{PictureInfo, Pictures, pictures};
+use crate::probe;
 use crate::render::{
-    Exposing, Options, Profile, View, development, motion_mistake, render_profiled,
+    Exposing, Member, Options, PictureInfo, Pictures, Profile, View, development, encode,
+    motion_mistake, render_profiled,
 };
 use crate::scene::Scene;
 use crate::shot::Shot;
@@ -122,12 +123,20 @@ impl Variant {
         )
         .map_err(|error| motion_mistake(&self.shot, &error))?;
         let rendered = Instant::now();
-        let Pictures { files, .. } = pictures(
+        let member = Member {
+            shot: &self.shot,
+            frame: subject.frame,
+            scene,
+        };
+        let size = [film.width, film.height];
+        let insets = probe::insets(member, stage, subject.stops, size)
+            .map_err(|error| motion_mistake(&self.shot, &error))?;
+        let Pictures { files, .. } = encode(
             &self.shot,
             subject.frame,
             scene,
-            stage,
             &film,
+            &insets,
             PictureInfo {
                 exposure_stops: subject.stops,
                 samples: self.options.samples,

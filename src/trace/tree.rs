@@ -109,9 +109,9 @@ pub struct Surface {
     pub time: f64,
     /// What was hit where.
     pub hit: BodyHit,
-    /// Its lamps: this many …
+    /// How many lamps light it.
     pub lamps: u32,
-    /// … from this index of [`ShadeTrees::direct`] on.
+    /// Index of the first of them into [`ShadeTrees::direct`].
     pub first_lamp: u32,
 }
 

@@ -1,12 +1,11 @@
-//! A film to the files of one frame, as bytes.
+//! A film to the files of one frame, as bytes: developed, insets drawn, encoded.
 
-use super::inset::Seen;
-use crate::film::{self, Film, SILENT, develop};
+use super::development;
+use crate::film::{Film, develop, to_rgb8};
 use crate::image::{EncodeError, Metadata, SOFTWARE, exr, png};
-use crate::render::{Enough, Member, development, enough_bounces};
+use crate::plot::{LEAST_INSET, Plot, lay_out_inset, raster, svg};
 use crate::scene::Scene;
-use crate::shot::{Depth, Exposure, Format, Sensor, Sequence, Shot, Track};
-use crate::trace::Stage;
+use crate::shot::{Depth, Exposure, Format, Inset, Sensor, Sequence, Shot, Track};
 
 /// The files of a frame: extension and content, and how many values had to be clamped.
 pub struct Pictures {
@@ -14,13 +13,11 @@ pub struct Pictures {
     pub files: Vec<(&'static str, Vec<u8>)>,
     /// Values beyond what a file can hold.
     pub saturated: u64,
-    /// Share of the light that was not followed in mirrors and glass.
-    pub cut: f64,
-    /// What could not be drawn or is not followed, and why.
+    /// What could not be drawn, and why.
     pub warnings: Vec<String>,
 }
 
-/// How a film was info, beside what the shot says.
+/// How a film was exposed, beside what the shot says.
 #[derive(Debug, Clone, Copy)]
 pub struct PictureInfo<'a> {
     /// Exposure, stops.
@@ -31,17 +28,17 @@ pub struct PictureInfo<'a> {
     pub fingerprint: Option<&'a str>,
 }
 
-/// Develops a film and encodes it in the shot's formats. What insets show is looked up in the
-/// `scene` and on the `stage` that the film was rendered with.
+/// Develops a film and encodes it in the shot's formats. `insets` are what the shot's insets show, in
+/// their order; None where one is too small to be read. Nothing is traced here.
 ///
 /// # Errors
 /// When an encoder refuses.
-pub fn pictures(
+pub fn encode(
     shot: &Shot,
     frame: u32,
     scene: &Scene,
-    stage: &Stage,
     film: &Film,
+    insets: &[Option<Plot>],
     info: PictureInfo<'_>,
 ) -> Result<Pictures, EncodeError> {
     let development = development(shot, info.exposure_stops);
@@ -54,21 +51,15 @@ pub fn pictures(
     let (width, height) = (film.width, film.height);
     let mut files = Vec::new();
     let mut saturated = developed.saturated;
-    let cut = film.left_out.share();
-    let member = Member { shot, frame, scene };
-    let mut warnings: Vec<String> = cut_light(member, stage, film).into_iter().collect();
+    let mut warnings = Vec::new();
     for format in &shot.output.formats {
         files.push(match format {
             Format::Png => {
-                let mut rgb = film::to_rgb8(&developed, development.encode);
-                let seen = Seen {
-                    shot,
-                    frame,
-                    scene,
-                    stage,
-                    exposure: info.exposure_stops,
-                };
-                warnings.extend(seen.draw_insets(&mut rgb, [width, height]));
+                let mut rgb = to_rgb8(&developed, development.encode);
+                let drawn = shot.inset.iter().zip(insets).map(|(inset, plot)| {
+                    draw(shot, inset, plot.as_ref(), &mut rgb, [width, height])
+                });
+                warnings.extend(drawn.filter_map(Result::err));
                 ("png", png::encode(width, height, &rgb, &metadata)?)
             }
             Format::Exr => {
@@ -85,39 +76,34 @@ pub fn pictures(
     Ok(Pictures {
         files,
         saturated,
-        cut,
         warnings,
     })
 }
 
-/// Says how much of a picture's light was not followed, and what would do, if that is much.
-fn cut_light(member: Member<'_>, stage: &Stage, film: &Film) -> Option<String> {
-    let share = film.left_out.share();
-    if share <= SILENT {
-        return None;
-    }
-    let enough = enough_bounces(member, stage, [film.width, film.height], &film.left_out);
-    let what_would_do = match enough {
-        Ok(Enough::Bounces(bounces)) => {
-            let silent = percent(SILENT);
-            format!("effects.bounces = {bounces} would leave out less than {silent}")
-        }
-        _ => format!(
-            "no number of effects.bounces would do, as it is too faint for accuracy.cutoff = {} or goes on for ever",
-            member.shot.accuracy.cutoff
-        ),
-    };
-    Some(format!(
-        "about {} of its light is left out, too deep in mirrors and glass: {what_would_do}",
-        percent(share)
-    ))
-}
-
-/// Two digits: `1.6 %`.
-fn percent(share: f64) -> String {
-    let value = 100.0 * share;
-    let decimals = if value < 9.95 { 1 } else { 0 };
-    format!("{value:.decimals$} %")
+/// Draws an inset into a picture of three bytes a pixel.
+///
+/// # Errors
+/// Why it is left out.
+fn draw(
+    shot: &Shot,
+    inset: &Inset,
+    plot: Option<&Plot>,
+    rgb8: &mut [u8],
+    size: [u32; 2],
+) -> Result<(), String> {
+    let [x, y] = inset.pixel_of(shot.image.size);
+    let (corner, [width, height]) = inset.place_in(size);
+    let plot = plot.ok_or_else(|| {
+        format!(
+            "the inset of pixel {x} {y} is left out: it would be {height} pixels high, and needs {LEAST_INSET} to be read; render a larger image, or raise its `size`"
+        )
+    })?;
+    let drawing = lay_out_inset(plot, [width, height].map(f64::from));
+    let drawn = raster::paint(&svg(&drawing), width, height).ok_or_else(|| {
+        format!("the inset of pixel {x} {y} is too large to be painted; lower its `size`")
+    })?;
+    drawn.lay_over(rgb8, size[0], corner);
+    Ok(())
 }
 
 fn exr_depth(depth: Depth) -> exr::Depth {
