@@ -1,7 +1,7 @@
 //! Broken shots: what each is told, and that nothing in a shot file makes the reader panic.
 //!
 //! Every `tests/bad-shots/*.toml` has one mistake (`six-mistakes.toml` has six); the report on
-//! it is the snapshot beside it. `INSTA_UPDATE=always cargo test --test bad_shots` renews them.
+//! it is the snapshot beside it. `INSTA_UPDATE=always cargo test --test suite bad_shots::` renews them.
 
 use proptest::prelude::*;
 use restframe::render::Prepared;

@@ -1,10 +1,7 @@
 //! Mirrors and glass as an author sets them: how deep, how faint, what is left out, and that short
 //! cuts change nothing.
-#![expect(
-    clippy::unwrap_used,
-    reason = "a test that cannot be set up has failed"
-)]
-
+use crate::common::WALL;
+use base64::prelude::{BASE64_STANDARD, Engine};
 use restframe::film::{Film, SILENT};
 use restframe::probe::{Probe, probe};
 use restframe::render::Prepared;
@@ -12,8 +9,6 @@ use restframe::render::{Enough, Member, Options, View, enough_bounces, render, r
 use restframe::scene::Scene;
 use restframe::trace::Stage;
 use std::path::Path;
-
-const WALL: &str = "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nf 1 2 3 4\n";
 
 /// What a pixel of a 9 x 9 image sees; `text` is the rest of the shot.
 fn sees(text: &str, pixel: [u32; 2]) -> Probe {
@@ -69,7 +64,7 @@ fn one_sided_ball() -> String {
         .iter()
         .flatten()
         .for_each(|i| bytes.extend(i.to_le_bytes()));
-    let data = base64::encode(&bytes);
+    let data = BASE64_STANDARD.encode(&bytes);
     format!(
         r#"{{"asset":{{"version":"2.0"}},"scene":0,"scenes":[{{"nodes":[0]}}],"nodes":[{{"mesh":0}}],
         "meshes":[{{"primitives":[{{"attributes":{{"POSITION":0}},"indices":1,"material":0}}]}}],

@@ -1,18 +1,11 @@
 //! The command as its users call it: what is written where, what is said, and how it ends.
 //!
-//! `INSTA_UPDATE=always cargo test --test cli` renews the snapshots in `tests/snapshots`.
+//! `INSTA_UPDATE=always cargo test --test suite cli::` renews the snapshots in `tests/snapshots`.
 
-#![expect(
-    clippy::unwrap_used,
-    clippy::panic,
-    reason = "helpers of tests fail the test"
-)]
-
-use assert_cmd::Command;
+use crate::common::desk::Desk;
 use serde_json::Value;
 use std::fs;
 use std::path::Path;
-use tempfile::TempDir;
 
 /// Three frames of a sphere that speeds up, with a lamp that moves too, in both formats.
 const SPHERE: &str = r#"
@@ -49,104 +42,49 @@ formats = ["png", "exr"]
 layers = ["doppler", "distance", "emission_time", "worldline"]
 "#;
 
-/// A folder with `sphere.toml` and its model, in which restframe is called.
-struct Desk(TempDir);
-
-/// How a call ended, and what it said.
-struct Outcome {
-    status: i32,
-    stdout: String,
-    stderr: String,
+/// A folder with `sphere.toml` and its model.
+fn sphere() -> Desk {
+    let desk = Desk::with_sphere();
+    desk.write("sphere.toml", SPHERE);
+    desk
 }
 
-impl Desk {
-    fn new() -> Self {
-        let desk = Self(tempfile::tempdir().unwrap());
-        let assets = Path::new(env!("CARGO_MANIFEST_DIR")).join("assets");
-        for name in ["sphere.obj", "sphere.mtl"] {
-            fs::copy(assets.join(name), desk.path(name)).unwrap();
-        }
-        desk.write("sphere.toml", SPHERE);
-        desk
-    }
-
-    fn path(&self, name: &str) -> std::path::PathBuf {
-        self.0.path().join(name)
-    }
-
-    fn write(&self, name: &str, text: &str) {
-        fs::write(self.path(name), text).unwrap();
-    }
-
-    /// Calls restframe with arguments that blanks part.
-    fn call(&self, arguments: &str) -> Outcome {
-        let mut command = Command::new(env!("CARGO_BIN_EXE_restframe"));
-        self.outcome(command.args(arguments.split_whitespace()))
-    }
-
-    /// Runs a line of shell, in which `$restframe` is the program.
-    fn shell(&self, line: &str) -> Outcome {
-        self.outcome(Command::new("bash").args(["-c", line]))
-    }
-
-    fn outcome(&self, command: &mut Command) -> Outcome {
-        let output = command
-            .current_dir(self.0.path())
-            .env("restframe", env!("CARGO_BIN_EXE_restframe"))
-            .timeout(std::time::Duration::from_secs(120))
-            .output()
-            .unwrap();
-        let text = |bytes| String::from_utf8(bytes).expect("UTF-8");
-        let (stdout, stderr) = (text(output.stdout), text(output.stderr));
-        assert!(!stderr.contains("panicked"), "{stderr}");
-        let status = output
-            .status
-            .code()
-            .unwrap_or_else(|| panic!("{:?}: {stderr}", output.status));
-        Outcome {
-            status,
-            stdout,
-            stderr,
-        }
-    }
-
-    /// All files below a folder but manifests and pages, which tell times, with their bytes.
-    fn files(&self, folder: &str) -> Vec<(String, Vec<u8>)> {
-        fn walk(folder: &Path, root: &Path, files: &mut Vec<(String, Vec<u8>)>) {
-            for entry in fs::read_dir(folder).into_iter().flatten() {
-                let path = entry.unwrap().path();
-                if path.is_dir() {
-                    walk(&path, root, files);
-                } else if path
-                    .extension()
-                    .is_none_or(|extension| extension != "jsonl" && extension != "html")
-                {
-                    let name = path
-                        .strip_prefix(root)
-                        .unwrap()
-                        .to_string_lossy()
-                        .into_owned();
-                    files.push((name, fs::read(&path).unwrap()));
-                }
+/// All files below a folder but manifests and pages, which tell times, with their bytes.
+fn files(desk: &Desk, folder: &str) -> Vec<(String, Vec<u8>)> {
+    fn walk(folder: &Path, root: &Path, files: &mut Vec<(String, Vec<u8>)>) {
+        for entry in fs::read_dir(folder).into_iter().flatten() {
+            let path = entry.unwrap().path();
+            if path.is_dir() {
+                walk(&path, root, files);
+            } else if path
+                .extension()
+                .is_none_or(|extension| extension != "jsonl" && extension != "html")
+            {
+                let name = path
+                    .strip_prefix(root)
+                    .unwrap()
+                    .to_string_lossy()
+                    .into_owned();
+                files.push((name, fs::read(&path).unwrap()));
             }
         }
-        let mut files = Vec::new();
-        walk(&self.path(folder), &self.path(folder), &mut files);
-        files.sort();
-        files
     }
+    let mut files = Vec::new();
+    walk(&desk.path(folder), &desk.path(folder), &mut files);
+    files.sort();
+    files
+}
 
-    fn names(&self, folder: &str) -> Vec<String> {
-        self.files(folder)
-            .into_iter()
-            .map(|(name, _)| name)
-            .collect()
-    }
+fn names(desk: &Desk, folder: &str) -> Vec<String> {
+    files(desk, folder)
+        .into_iter()
+        .map(|(name, _)| name)
+        .collect()
 }
 
 /// What a person sees, with the folders and times of this run taken out.
 fn said(desk: &Desk, text: &str) -> String {
-    let text = text.replace(&desk.0.path().display().to_string(), "DESK");
+    let text = text.replace(&desk.path("").display().to_string(), "DESK");
     let line = |line: &str| match line.split_once(" s  ") {
         Some((before, name)) if line.starts_with("frame ") => {
             let (frame, _seconds) = before.rsplit_once(' ').unwrap();
@@ -159,11 +97,11 @@ fn said(desk: &Desk, text: &str) -> String {
 
 #[test]
 fn all_frames_are_written_where_the_contract_says() {
-    let desk = Desk::new();
+    let desk = sphere();
     let outcome = desk.call("render sphere.toml");
     assert_eq!((outcome.status, outcome.stdout.as_str()), (0, ""));
     assert_eq!(
-        desk.names("renders"),
+        names(&desk, "renders"),
         [
             "sphere/sphere.0001.exr",
             "sphere/sphere.0001.png",
@@ -179,46 +117,46 @@ fn all_frames_are_written_where_the_contract_says() {
 
 #[test]
 fn the_bytes_are_the_same_for_any_number_of_threads_and_any_run() {
-    let desk = Desk::new();
+    let desk = sphere();
     for (out, threads) in [("one", 1), ("two", 2), ("again", 2), ("seven", 7)] {
         let outcome = desk.call(&format!(
             "render sphere.toml --out {out} --threads {threads}"
         ));
         assert_eq!(outcome.status, 0, "{}", outcome.stderr);
     }
-    let one = desk.files("one");
+    let one = files(&desk, "one");
     assert_eq!(one.len(), 6);
     for other in ["two", "again", "seven"] {
-        assert!(desk.files(other) == one, "{other}");
+        assert!(files(&desk, other) == one, "{other}");
     }
 }
 
 #[test]
 fn a_frame_is_the_same_whichever_frames_are_rendered_with_it() {
-    let desk = Desk::new();
+    let desk = sphere();
     assert_eq!(desk.call("render sphere.toml --out all").status, 0);
     assert_eq!(
         desk.call("render sphere.toml --out last --frames 3").status,
         0
     );
-    let all = desk.files("all");
-    for file in desk.files("last") {
+    let all = files(&desk, "all");
+    for file in files(&desk, "last") {
         assert!(all.contains(&file), "{}", file.0);
     }
 }
 
 #[test]
 fn frames_outside_the_shot_are_left_out_with_a_warning() {
-    let desk = Desk::new();
+    let desk = sphere();
     let outcome = desk.call("render sphere.toml --frames 2-3,7,9- --progress none");
     assert_eq!(outcome.status, 0);
     insta::assert_snapshot!("frames-outside", said(&desk, &outcome.stderr));
-    assert_eq!(desk.names("renders").len(), 4);
+    assert_eq!(names(&desk, "renders").len(), 4);
 }
 
 #[test]
 fn frame_lists_that_choose_nothing_or_cannot_be_read_are_refused() {
-    let desk = Desk::new();
+    let desk = sphere();
     let mut answers = String::new();
     for list in ["4-9", "1:10", "3-1", "1-3:0", "2.5", "first"] {
         let outcome = desk.call(&format!("render sphere.toml --frames {list}"));
@@ -229,15 +167,15 @@ fn frame_lists_that_choose_nothing_or_cannot_be_read_are_refused() {
         ));
     }
     insta::assert_snapshot!("frames-refused", answers);
-    assert_eq!(desk.names("renders"), [""; 0]);
+    assert_eq!(names(&desk, "renders"), [""; 0]);
 }
 
 #[test]
 fn scale_and_samples_take_the_place_of_the_shots() {
-    let desk = Desk::new();
+    let desk = sphere();
     let outcome = desk.call("render sphere.toml --frames 1 --scale 0.5 --samples 1 --out small");
     assert_eq!(outcome.status, 0, "{}", outcome.stderr);
-    let png = &desk.files("small")[1].1;
+    let png = &files(&desk, "small")[1].1;
     let side = |at: usize| u32::from_be_bytes(png[at..at + 4].try_into().unwrap());
     // Width and height stand first in the IHDR chunk.
     assert_eq!((side(16), side(20)), (24, 14));
@@ -246,12 +184,12 @@ fn scale_and_samples_take_the_place_of_the_shots() {
             .status,
         0
     );
-    assert_ne!(&desk.files("more")[1].1, png);
+    assert_ne!(&files(&desk, "more")[1].1, png);
 }
 
 #[test]
 fn calls_that_make_no_sense_are_answered_with_status_2() {
-    let desk = Desk::new();
+    let desk = sphere();
     let mut answers = String::new();
     for call in [
         "render",
@@ -278,18 +216,18 @@ fn calls_that_make_no_sense_are_answered_with_status_2() {
         ));
     }
     insta::assert_snapshot!("misuse", answers);
-    assert_eq!(desk.names("renders"), [""; 0]);
+    assert_eq!(names(&desk, "renders"), [""; 0]);
 }
 
 #[test]
 fn a_broken_shot_among_several_stops_all_of_them_before_the_first_frame() {
-    let desk = Desk::new();
+    let desk = sphere();
     desk.write("broken.toml", &SPHERE.replace("samples = 4", "sampels = 4"));
     desk.write("worse.toml", &SPHERE.replace("0.8, 0, 0", "1.0, 0, 0"));
     let outcome = desk.call("render sphere.toml broken.toml worse.toml missing.toml");
     assert_eq!((outcome.status, outcome.stdout.as_str()), (2, ""));
     insta::assert_snapshot!("broken-among-several", said(&desk, &outcome.stderr));
-    assert_eq!(desk.names("renders"), [""; 0]);
+    assert_eq!(names(&desk, "renders"), [""; 0]);
 }
 
 /// A shot of the given model.
@@ -299,17 +237,17 @@ fn shot_of(model: &str) -> String {
 
 #[test]
 fn a_mistake_in_a_model_file_is_one_of_the_call_and_names_the_file() {
-    let desk = Desk::new();
+    let desk = sphere();
     let models = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/bad-models");
-    let mut names: Vec<String> = fs::read_dir(models.clone())
+    let mut files: Vec<String> = fs::read_dir(models.clone())
         .unwrap()
         .map(|entry| entry.unwrap().file_name().into_string().unwrap())
         .filter(|name| !name.ends_with(".md"))
         .collect();
-    names.sort();
-    assert!(names.len() >= 6, "{names:?}");
+    files.sort();
+    assert!(files.len() >= 6, "{files:?}");
     let mut answers = String::new();
-    for name in names {
+    for name in files {
         fs::copy(models.join(&name), desk.path(&name)).unwrap();
         desk.write("bad.toml", &shot_of(&name));
         for command in ["check", "render"] {
@@ -327,12 +265,12 @@ fn a_mistake_in_a_model_file_is_one_of_the_call_and_names_the_file() {
         }
     }
     insta::assert_snapshot!("bad-models", answers);
-    assert_eq!(desk.names("renders"), [""; 0]);
+    assert_eq!(names(&desk, "renders"), [""; 0]);
 }
 
 #[test]
 fn check_tells_what_is_sound_and_what_is_not() {
-    let desk = Desk::new();
+    let desk = sphere();
     desk.write("broken.toml", &SPHERE.replace("samples = 4", "sampels = 4"));
     let sound = desk.call("check sphere.toml");
     assert_eq!((sound.status, sound.stderr.as_str()), (0, ""));
@@ -350,7 +288,7 @@ fn check_tells_what_is_sound_and_what_is_not() {
 
 #[test]
 fn probe_answers_in_the_shape_of_the_contract() {
-    let desk = Desk::new();
+    let desk = sphere();
     let outcome = desk.call("probe sphere.toml --frame 3 --pixel 27 13 --json");
     assert_eq!((outcome.status, outcome.stderr.as_str()), (0, ""));
     let answer: Value = serde_json::from_str(&outcome.stdout).unwrap();
@@ -436,19 +374,19 @@ fn probe_answers_in_the_shape_of_the_contract() {
 
 #[test]
 fn the_schema_is_json_of_draft_7_on_standard_output_alone() {
-    let desk = Desk::new();
+    let desk = sphere();
     let outcome = desk.call("schema");
     assert_eq!((outcome.status, outcome.stderr.as_str()), (0, ""));
     let schema: Value = serde_json::from_str(&outcome.stdout).unwrap();
     assert_eq!(schema["$schema"], "http://json-schema.org/draft-07/schema#");
-    assert_eq!(desk.names(".").len(), 3, "{:?}", desk.names("."));
+    assert_eq!(names(&desk, ".").len(), 3, "{:?}", names(&desk, "."));
     // The copy that editors read beside the shots: `restframe schema > shots/shot.schema.json`.
     assert_eq!(outcome.stdout, include_str!("../shots/shot.schema.json"));
 }
 
 #[test]
 fn help_and_version_are_results_and_go_to_standard_output() {
-    let desk = Desk::new();
+    let desk = sphere();
     for call in ["--help", "render --help", "probe --help", "--version"] {
         let outcome = desk.call(call);
         assert_eq!((outcome.status, outcome.stderr.as_str()), (0, ""), "{call}");
@@ -459,7 +397,7 @@ fn help_and_version_are_results_and_go_to_standard_output() {
 
 #[test]
 fn without_a_terminal_nothing_has_an_escape_or_a_carriage_return() {
-    let desk = Desk::new();
+    let desk = sphere();
     desk.write("broken.toml", &SPHERE.replace("samples = 4", "sampels = 4"));
     for line in [
         "$restframe render sphere.toml 2>err | cat",
@@ -479,7 +417,7 @@ fn without_a_terminal_nothing_has_an_escape_or_a_carriage_return() {
 
 #[test]
 fn a_reader_who_goes_away_is_no_failure_but_a_full_disk_is() {
-    let desk = Desk::new();
+    let desk = sphere();
     let line = "$restframe schema | head -c 1; exit ${PIPESTATUS[0]}";
     assert_eq!(desk.shell(line).status, 0);
     if Path::new("/dev/full").exists() {
@@ -496,7 +434,7 @@ fn a_reader_who_goes_away_is_no_failure_but_a_full_disk_is() {
 /// A file in the place of the folder: permissions would not stop the superuser.
 #[test]
 fn an_output_folder_that_cannot_be_made_fails_every_frame_with_status_1() {
-    let desk = Desk::new();
+    let desk = sphere();
     desk.write("taken", "a file");
     let outcome = desk.call("render sphere.toml --out taken");
     assert_eq!((outcome.status, outcome.stdout.as_str()), (1, ""));
@@ -507,18 +445,18 @@ fn an_output_folder_that_cannot_be_made_fails_every_frame_with_status_1() {
 /// A limit on the size of files fails a write half-way, as a full disk does.
 #[test]
 fn an_image_that_cannot_be_written_whole_is_not_there_at_all() {
-    let desk = Desk::new();
+    let desk = sphere();
     let line = "trap '' XFSZ; ulimit -f 2; exec $restframe render sphere.toml --frames 1-2";
     let outcome = desk.shell(line);
     assert_eq!((outcome.status, outcome.stdout.as_str()), (1, ""));
     insta::assert_snapshot!("no-space", said(&desk, &outcome.stderr));
     // The PNG is small enough for the limit, the EXR is not; then the shot is done with.
-    assert_eq!(desk.names("renders"), ["sphere/sphere.0001.png"]);
+    assert_eq!(names(&desk, "renders"), ["sphere/sphere.0001.png"]);
 }
 
 #[test]
 fn an_image_that_the_memory_cannot_hold_is_refused_before_it_is_begun() {
-    let desk = Desk::new();
+    let desk = sphere();
     let memory = fs::read_to_string("/proc/meminfo").unwrap_or_default();
     let kib = memory.lines().find_map(|line| {
         line.strip_prefix("MemAvailable:")?
@@ -530,7 +468,7 @@ fn an_image_that_the_memory_cannot_hold_is_refused_before_it_is_begun() {
         eprintln!("not tested: this machine could hold the largest image");
         return;
     }
-    desk.write("huge.toml", &SPHERE.replace("[48, 27]", "[32768, 32768]"));
+    desk.write("huge.toml", SPHERE.replace("[48, 27]", "[32768, 32768]"));
     let outcome = desk.call("render huge.toml --frames 1");
     assert_eq!((outcome.status, outcome.stdout.as_str()), (1, ""));
     assert!(
@@ -543,14 +481,14 @@ fn an_image_that_the_memory_cannot_hold_is_refused_before_it_is_begun() {
         "{}",
         outcome.stderr
     );
-    assert_eq!(desk.names("renders"), [""; 0]);
+    assert_eq!(names(&desk, "renders"), [""; 0]);
     let small = desk.call("render huge.toml --frames 1 --scale 0.001 --samples 1");
     assert_eq!(small.status, 0, "{}", small.stderr);
 }
 
 #[test]
 fn a_black_first_frame_is_exposed_at_0_stops_with_a_warning() {
-    let desk = Desk::new();
+    let desk = sphere();
     desk.write(
         "dark.toml",
         &SPHERE.replace("intensity = 1000", "intensity = 0"),
@@ -567,7 +505,7 @@ fn the_first_shot_of_the_readme_renders_and_probes_as_it_says() {
         let (_, rest) = readme.split_once(opening).unwrap();
         rest.split_once("```").unwrap().0
     };
-    let desk = Desk::new();
+    let desk = sphere();
     fs::create_dir(desk.path("assets")).unwrap();
     for name in ["sphere.obj", "sphere.mtl"] {
         fs::rename(desk.path(name), desk.path("assets").join(name)).unwrap();
@@ -575,7 +513,7 @@ fn the_first_shot_of_the_readme_renders_and_probes_as_it_says() {
     desk.write("first.toml", block("```toml\n"));
     let rendered = desk.call("render first.toml --scale 0.1 --progress none");
     assert_eq!((rendered.status, rendered.stderr.as_str()), (0, ""));
-    assert_eq!(desk.names("renders"), ["first/first.0001.png"]);
+    assert_eq!(names(&desk, "renders"), ["first/first.0001.png"]);
     let call = "probe first.toml --pixel 320 180";
     let answer = desk.call(call).stdout;
     assert_eq!(
@@ -596,7 +534,7 @@ fn glass(more: &str) -> String {
 
 #[test]
 fn light_that_bounces_cut_is_told_with_the_number_that_would_do() {
-    let desk = Desk::new();
+    let desk = sphere();
     let events = |more: &str| -> Vec<Value> {
         desk.write("glass.toml", &glass(more));
         let told = desk.call("render glass.toml --json");
@@ -647,7 +585,7 @@ fn light_that_bounces_cut_is_told_with_the_number_that_would_do() {
 
 #[test]
 fn a_lamp_on_a_wall_gives_numbers_to_whoever_asks() {
-    let desk = Desk::new();
+    let desk = sphere();
     desk.write(
         "wall.obj",
         "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nf 1 2 3 4\n",

@@ -1,10 +1,5 @@
 //! Light delay as `shots/drive-by.toml` shows it: a lattice that passes at 0.9 c is seen where it
 //! was when its light left, worked out here from the light cone alone.
-#![expect(
-    clippy::unwrap_used,
-    reason = "a test that cannot be set up has failed"
-)]
-
 use restframe::probe::{Probe, probe};
 use restframe::render::Prepared;
 use restframe::render::View;

@@ -6,12 +6,7 @@
 //! straight across has D = 1/γ. By the angle in the source's frame it would have D = γ, and the
 //! crossover would lie on the other side.
 //!
-//! `RESTFRAME_FIGURE=write cargo test --test figure_1` (scripts/figure-1) renews the figure.
-
-#![expect(
-    clippy::unwrap_used,
-    reason = "what cannot be read or resolved fails the test"
-)]
+//! `RESTFRAME_FIGURE=write cargo test --test suite figure_1::` (scripts/figure-1) renews the figure.
 
 use restframe::plot::{Axis, Color, Page, Panel, Plot, Scale, Series, Stroke, lay_out, svg};
 use restframe::probe::{Probe, probe};

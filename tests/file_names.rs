@@ -1,16 +1,11 @@
 //! Names of files as other systems and people write them: each is read, or answered with what to write.
-#![expect(
-    clippy::unwrap_used,
-    reason = "a test that cannot be set up has failed"
-)]
-
+use crate::common::WALL;
 use restframe::render::Prepared;
 use restframe::shot::{Mistakes, load};
 use std::fs;
 use std::path::Path;
 use tempfile::TempDir;
 
-const WALL: &str = "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nf 1 2 3 4\n";
 /// é as one letter, and as e with an accent that follows.
 const COMPOSED: &str = "caf\u{e9}";
 const DECOMPOSED: &str = "cafe\u{301}";

@@ -2,18 +2,10 @@
 //! of it, read back by other programs.
 //!
 //! ffmpeg and ffprobe (5.1) must be installed.
-#![allow(
-    clippy::unwrap_used,
-    clippy::panic,
-    reason = "a test's helpers fail by panicking"
-)]
-
-mod finished {
-    pub(crate) mod again;
-    pub(crate) mod animations;
-    pub(crate) mod desk;
-    pub(crate) mod refusals;
-    pub(crate) mod sheets;
-    pub(crate) mod verify;
-    pub(crate) mod videos;
-}
+mod again;
+mod animations;
+mod desk;
+mod refusals;
+mod sheets;
+mod verify;
+mod videos;

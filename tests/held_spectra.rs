@@ -1,10 +1,5 @@
 //! Lines and three numbers against the curves they stand for: where they agree, where they cannot,
 //! and how the error of lines falls with their spacing.
-#![expect(
-    clippy::unwrap_used,
-    reason = "a test that cannot be set up has failed"
-)]
-
 use glam::DVec3;
 use restframe::color::cie;
 use restframe::plan;

@@ -1,18 +1,10 @@
 //! Shots of a million frames: what is done about them goes by what is there and what is asked for, not
 //! by what could be. Bytes, rows and frames are counted; no time is measured.
-#![expect(
-    clippy::unwrap_used,
-    reason = "a test that cannot be set up has failed"
-)]
-
+use crate::common::WALL;
+use crate::common::desk::Desk;
 use serde_json::Value;
 use std::fs;
 use std::io::{BufRead, BufReader};
-use std::path::PathBuf;
-use std::process::{Command, Stdio};
-use tempfile::TempDir;
-
-const WALL: &str = "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nf 1 2 3 4\n";
 
 /// Everything moves, so that no two frames are alike.
 const SHOT: &str = r#"
@@ -35,60 +27,28 @@ position = [0, 0, 4]
 exposure = 0
 "#;
 
-struct Desk(TempDir);
-
-/// How a call ended, and what it said.
-struct Outcome {
-    status: i32,
-    out: String,
-    err: String,
+/// A folder with a shot of so many frames, `more` being added to it.
+fn huge(frames: u32, more: &str) -> Desk {
+    let desk = Desk::new();
+    desk.write("wall.obj", WALL);
+    let text = SHOT.replace("FRAMES", &frames.to_string());
+    desk.write("huge.toml", text + more);
+    desk
 }
 
-impl Desk {
-    /// A shot of so many frames, `more` being added to it.
-    fn new(frames: u32, more: &str) -> Self {
-        let desk = Self(tempfile::tempdir().unwrap());
-        fs::write(desk.path("wall.obj"), WALL).unwrap();
-        let text = SHOT.replace("FRAMES", &frames.to_string());
-        fs::write(desk.path("huge.toml"), text + more).unwrap();
-        desk
-    }
-
-    fn path(&self, name: &str) -> PathBuf {
-        self.0.path().join(name)
-    }
-
-    fn command(&self, call: &str) -> Command {
-        let mut command = Command::new(env!("CARGO_BIN_EXE_restframe"));
-        command.current_dir(self.0.path());
-        command.args(call.split_whitespace());
-        command
-    }
-
-    fn call(&self, call: &str) -> Outcome {
-        let done = self.command(call).output().unwrap();
-        let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
-        Outcome {
-            status: done.status.code().unwrap(),
-            out: text(&done.stdout),
-            err: text(&done.stderr),
-        }
-    }
-
-    fn page(&self) -> String {
-        fs::read_to_string(self.path("renders/huge/index.html")).unwrap()
-    }
+fn page_of(desk: &Desk) -> String {
+    desk.read("renders/huge/index.html")
 }
 
 #[test]
 fn two_frames_of_a_million_have_a_page_of_two() {
-    let desk = Desk::new(1_000_000, "");
+    let desk = huge(1_000_000, "");
     let done = desk.call("render huge.toml --frames 1,500000");
-    assert_eq!(done.status, 0, "{}", done.err);
+    assert_eq!(done.status, 0, "{}", done.stderr);
     for name in ["huge.0000001.png", "huge.0500000.png"] {
         assert!(desk.path("renders/huge").join(name).is_file(), "{name}");
     }
-    let page = desk.page();
+    let page = page_of(&desk);
     assert_eq!(page.matches("<tr id=\"frame-").count(), 2);
     assert_eq!(page.matches("data:image/jpeg").count(), 2);
     // As large as one may be, and not for a million to fit: the pictures are 8 pixels wide.
@@ -106,20 +66,20 @@ fn two_frames_of_a_million_have_a_page_of_two() {
     assert_eq!(manifest.lines().count(), 3);
     // All that was asked for is there: nothing is told anew.
     let again = desk.call("render huge.toml --frames 1,500000");
-    assert_eq!(again.err.matches("kept").count(), 2, "{}", again.err);
+    assert_eq!(again.stderr.matches("kept").count(), 2, "{}", again.stderr);
     // The page tells of other frames when there are some.
     desk.call("render huge.toml --frames 3");
-    assert_eq!(desk.page().matches("<tr id=\"frame-").count(), 4);
-    assert!(desk.page().contains("frames 4–499999: missing"));
+    assert_eq!(page_of(&desk).matches("<tr id=\"frame-").count(), 4);
+    assert!(page_of(&desk).contains("frames 4–499999: missing"));
 }
 
 #[test]
 fn frames_that_are_not_there_are_verified_in_runs() {
-    let desk = Desk::new(1_000_000, "[sequence]\ngif = true\n");
+    let desk = huge(1_000_000, "[sequence]\ngif = true\n");
     assert_eq!(desk.call("render huge.toml --frames 20,500000").status, 0);
     let told = desk.call("verify huge.toml");
-    assert_eq!(told.status, 1, "{}", told.err);
-    let lines: Vec<&str> = told.out.lines().collect();
+    assert_eq!(told.status, 1, "{}", told.stderr);
+    let lines: Vec<&str> = told.stdout.lines().collect();
     assert_eq!(
         lines,
         [
@@ -133,16 +93,16 @@ fn frames_that_are_not_there_are_verified_in_runs() {
     assert_eq!(assembled.status, 1);
     assert!(
         assembled
-            .err
+            .stderr
             .contains("huge.0000001.png: missing, as are all up to"),
         "{}",
-        assembled.err
+        assembled.stderr
     );
     // For programs each frame has its finding, as in short shots.
-    let small = Desk::new(40, "");
+    let small = huge(40, "");
     assert_eq!(small.call("render huge.toml --frames 20").status, 0);
     let told = small.call("verify huge.toml --json");
-    let told: Value = serde_json::from_str(&told.out).unwrap();
+    let told: Value = serde_json::from_str(&told.stdout).unwrap();
     let shot = &told["shots"][0];
     assert_eq!(shot["sound"], 1);
     let findings = shot["findings"].as_array().unwrap();
@@ -157,12 +117,8 @@ fn frames_that_are_not_there_are_verified_in_runs() {
 #[test]
 fn a_plan_is_told_frame_by_frame_and_its_lines_are_not_held() {
     const FRAMES: u32 = 200_000;
-    let desk = Desk::new(FRAMES, "");
-    let mut plan = desk
-        .command("plan huge.toml --json")
-        .stdout(Stdio::piped())
-        .spawn()
-        .unwrap();
+    let desk = huge(FRAMES, "");
+    let mut plan = desk.spawn("plan huge.toml --json");
     let mut reader = BufReader::new(plan.stdout.take().unwrap());
     let (mut text, mut bytes) = (String::new(), 0);
     let mut line = String::new();
@@ -189,12 +145,7 @@ fn a_plan_is_told_frame_by_frame_and_its_lines_are_not_held() {
     assert_eq!(plan["frames"][1]["trace"], FRAMES - 1);
     assert_eq!(plan["totals"]["frames"], FRAMES);
     // Whoever reads no more has it end.
-    let mut unread = desk
-        .command("plan huge.toml --json")
-        .stdout(Stdio::piped())
-        .stderr(Stdio::piped())
-        .spawn()
-        .unwrap();
+    let mut unread = desk.spawn("plan huge.toml --json");
     let mut reader = BufReader::new(unread.stdout.take().unwrap());
     line.clear();
     reader.read_line(&mut line).unwrap();
@@ -212,24 +163,24 @@ fn peak_kib(process: u32) -> Option<u64> {
 
 #[test]
 fn the_plan_in_words_says_the_same_of_many_frames_once() {
-    let told = Desk::new(200_000, "").call("plan huge.toml");
-    assert_eq!(told.status, 0, "{}", told.err);
+    let told = huge(200_000, "").call("plan huge.toml");
+    assert_eq!(told.status, 0, "{}", told.stderr);
     assert!(
-        told.out.contains("200000 frames, 8 x 8 pixels"),
+        told.stdout.contains("200000 frames, 8 x 8 pixels"),
         "{}",
-        told.out
+        told.stdout
     );
     assert!(
-        told.out.contains("frames 2-200000  missing"),
+        told.stdout.contains("frames 2-200000  missing"),
         "{}",
-        told.out
+        told.stdout
     );
-    assert!(told.out.lines().count() < 20, "{}", told.out);
+    assert!(told.stdout.lines().count() < 20, "{}", told.stdout);
 }
 
 #[test]
 fn shards_of_a_few_frames_of_a_million_take_each_once() {
-    let desk = Desk::new(1_000_000, "");
+    let desk = huge(1_000_000, "");
     let mut files = Vec::new();
     for shard in ["1/2", "2/2"] {
         let call = format!("render huge.toml --frames 7,900000,1000000 --shard {shard}");
@@ -243,23 +194,23 @@ fn shards_of_a_few_frames_of_a_million_take_each_once() {
 
 #[test]
 fn a_sheet_of_a_million_cells_is_told_before_the_first_is_rendered() {
-    let desk = Desk::new(1_000_000, "[sequence]\nsheet = { columns = 6 }\n");
+    let desk = huge(1_000_000, "[sequence]\nsheet = { columns = 6 }\n");
     let told = desk.call("render huge.toml --frames 1");
-    assert_eq!(told.status, 0, "{}", told.err);
+    assert_eq!(told.status, 0, "{}", told.stderr);
     let words = "a sheet of 1000000 frames in 6 columns is larger than 32768 pixels a side at any width; so it is in any number of columns: leave out sequence.sheet";
-    assert!(told.err.contains(words), "{}", told.err);
+    assert!(told.stderr.contains(words), "{}", told.stderr);
     assert!(
-        told.err.find(words) < told.err.find("rendered"),
+        told.stderr.find(words) < told.stderr.find("rendered"),
         "{}",
-        told.err
+        told.stderr
     );
-    let few = Desk::new(20, "[sequence]\nsheet = { columns = 6 }\n").call("check huge.toml");
-    assert_eq!((few.status, few.err.as_str()), (0, ""));
-    let many = Desk::new(100_000, "[sequence]\nsheet = { columns = 6 }\n").call("check huge.toml");
+    let few = huge(20, "[sequence]\nsheet = { columns = 6 }\n").call("check huge.toml");
+    assert_eq!((few.status, few.stderr.as_str()), (0, ""));
+    let many = huge(100_000, "[sequence]\nsheet = { columns = 6 }\n").call("check huge.toml");
     assert!(
-        many.err
+        many.stderr
             .contains("set sequence.sheet.columns nearer to 100"),
         "{}",
-        many.err
+        many.stderr
     );
 }

@@ -4,14 +4,11 @@
 //! Plots are read as a reader does: the white field between the axes is found, its edges are the ends
 //! of the axes, and a curve is where its colour is.
 
-#![expect(clippy::unwrap_used, reason = "helpers of tests fail the test")]
-
-use assert_cmd::Command;
+use crate::common::desk::Desk;
 use image::{Rgb32FImage, RgbImage};
 use serde_json::Value;
 use std::fs;
-use std::path::{Path, PathBuf};
-use tempfile::TempDir;
+use std::path::PathBuf;
 
 /// A sphere that reflects and glows, in a window whose decades to each side are 10 to 20000 nm.
 const BALL: &str = r#"
@@ -56,49 +53,20 @@ const SUM: [u8; 3] = [165, 165, 165];
 const FULL: u8 = 10;
 const PALE: u8 = 80;
 
-struct Desk(TempDir);
+/// The ball with more in its shot, rendered; and what was said.
+fn rendered(desk: &Desk, stem: &str, more: &str, options: &str) -> (RgbImage, String) {
+    desk.write(&format!("{stem}.toml"), format!("{BALL}{more}"));
+    let said = desk.done(&format!("render {stem}.toml {options}")).stderr;
+    let picture = image::open(file(desk, stem, "png")).unwrap();
+    (picture.to_rgb8(), said)
+}
 
-impl Desk {
-    fn new() -> Self {
-        let desk = Self(tempfile::tempdir().unwrap());
-        let assets = Path::new(env!("CARGO_MANIFEST_DIR")).join("assets");
-        for name in ["sphere.obj", "sphere.mtl"] {
-            fs::copy(assets.join(name), desk.0.path().join(name)).unwrap();
-        }
-        desk
-    }
+fn file(desk: &Desk, stem: &str, extension: &str) -> PathBuf {
+    desk.path(&format!("renders/{stem}/{stem}.0001.{extension}"))
+}
 
-    /// Standard output and standard error of a call that must succeed.
-    fn call(&self, arguments: &str) -> (String, String) {
-        let output = Command::new(env!("CARGO_BIN_EXE_restframe"))
-            .args(arguments.split_whitespace())
-            .current_dir(self.0.path())
-            .output()
-            .unwrap();
-        let [out, err] = [output.stdout, output.stderr].map(|t| String::from_utf8(t).unwrap());
-        assert!(output.status.success(), "{arguments}: {err}");
-        (out, err)
-    }
-
-    /// The ball with more in its shot, rendered; and what was said.
-    fn rendered(&self, stem: &str, more: &str, options: &str) -> (RgbImage, String) {
-        fs::write(
-            self.0.path().join(format!("{stem}.toml")),
-            format!("{BALL}{more}"),
-        )
-        .unwrap();
-        let (_, said) = self.call(&format!("render {stem}.toml {options}"));
-        (image::open(self.file(stem, "png")).unwrap().to_rgb8(), said)
-    }
-
-    fn file(&self, stem: &str, extension: &str) -> PathBuf {
-        let folder = self.0.path().join("renders").join(stem);
-        folder.join(format!("{stem}.0001.{extension}"))
-    }
-
-    fn light(&self, stem: &str) -> Rgb32FImage {
-        image::open(self.file(stem, "exr")).unwrap().to_rgb32f()
-    }
+fn light(desk: &Desk, stem: &str) -> Rgb32FImage {
+    image::open(file(desk, stem, "exr")).unwrap().to_rgb32f()
 }
 
 /// Columns and rows, each from its first to the one behind its last.
@@ -184,9 +152,9 @@ fn next_round(value: f64) -> f64 {
 
 #[test]
 fn an_inset_changes_the_png_in_its_rectangle_and_the_exr_nowhere() {
-    let desk = Desk::new();
-    let (plain, _) = desk.rendered("plain", "", "");
-    let (drawn, said) = desk.rendered("drawn", "[[inset]]\n", "");
+    let desk = Desk::with_sphere();
+    let (plain, _) = rendered(&desk, "plain", "", "");
+    let (drawn, said) = rendered(&desk, "drawn", "[[inset]]\n", "");
     assert!(!said.contains("warning"), "{said}");
     let inset = rectangle([960, 720], 0.4, "lower-left");
     let changed = changed(&plain, &drawn);
@@ -196,7 +164,7 @@ fn an_inset_changes_the_png_in_its_rectangle_and_the_exr_nowhere() {
         changed.len() as u32,
         (inset[0][1] - inset[0][0]) * (inset[1][1] - inset[1][0])
     );
-    assert_eq!(desk.light("plain"), desk.light("drawn"));
+    assert_eq!(light(&desk, "plain"), light(&desk, "drawn"));
 }
 
 #[test]
@@ -206,9 +174,11 @@ fn the_curves_are_those_of_the_probe() {
     const TOLERANCE: f64 = 2.0;
     /// Pixels upwards over two columns.
     const STEEP: f64 = 5.0;
-    let desk = Desk::new();
-    let (picture, _) = desk.rendered("ball", "[[inset]]\nsize = 0.8\n", "");
-    let (probe, _) = desk.call("probe ball.toml --frame 1 --pixel 480 360 --json");
+    let desk = Desk::with_sphere();
+    let (picture, _) = rendered(&desk, "ball", "[[inset]]\nsize = 0.8\n", "");
+    let probe = desk
+        .done("probe ball.toml --frame 1 --pixel 480 360 --json")
+        .stdout;
     let probe: Value = serde_json::from_str(&probe).unwrap();
     let numbers = |key: &str| -> Vec<f64> {
         let list = probe[key].as_array().unwrap();
@@ -272,9 +242,9 @@ fn the_curves_are_those_of_the_probe() {
 
 #[test]
 fn axes_have_numbers_and_there_is_a_caption_as_long_as_there_is_room() {
-    let desk = Desk::new();
+    let desk = Desk::with_sphere();
     let inside = |scale: f64| {
-        let (picture, _) = desk.rendered("ball", "[[inset]]\n", &format!("--scale {scale}"));
+        let (picture, _) = rendered(&desk, "ball", "[[inset]]\n", &format!("--scale {scale}"));
         let inset = rectangle([picture.width(), picture.height()], 0.4, "lower-left");
         let field = field(&picture, &inset);
         // Dark pixels of the margins: above the field, left of it, below it.
@@ -306,9 +276,14 @@ fn axes_have_numbers_and_there_is_a_caption_as_long_as_there_is_room() {
 
 #[test]
 fn an_inset_too_small_to_be_read_is_left_out_with_a_warning() {
-    let desk = Desk::new();
-    let (plain, _) = desk.rendered("plain", "", "--scale 0.2");
-    let (drawn, said) = desk.rendered("drawn", "[[inset]]\npixel = [480, 360]\n", "--scale 0.2");
+    let desk = Desk::with_sphere();
+    let (plain, _) = rendered(&desk, "plain", "", "--scale 0.2");
+    let (drawn, said) = rendered(
+        &desk,
+        "drawn",
+        "[[inset]]\npixel = [480, 360]\n",
+        "--scale 0.2",
+    );
     assert!(changed(&plain, &drawn).is_empty());
     let warning = "warning: drawn.toml: frame 1: the inset of pixel 480 360 is left out: it would be 57 pixels high";
     assert!(said.contains(warning), "{said}");
@@ -316,11 +291,11 @@ fn an_inset_too_small_to_be_read_is_left_out_with_a_warning() {
 
 #[test]
 fn a_smaller_picture_has_the_inset_of_the_same_point() {
-    let desk = Desk::new();
+    let desk = Desk::with_sphere();
     // On the ball, and in the smaller picture a pixel far from it.
     let shot = "[[inset]]\npixel = [500, 400]\n";
     let share = |scale: &str| {
-        let (picture, _) = desk.rendered("ball", shot, scale);
+        let (picture, _) = rendered(&desk, "ball", shot, scale);
         let inset = rectangle([picture.width(), picture.height()], 0.4, "lower-left");
         let width = f64::from(inset[0][1] - inset[0][0]);
         columns_with(&picture, &inset, THERMAL) as f64 / width
@@ -332,11 +307,11 @@ fn a_smaller_picture_has_the_inset_of_the_same_point() {
 
 #[test]
 fn an_inset_shows_its_pixel_under_the_effects_of_its_splice() {
-    let desk = Desk::new();
+    let desk = Desk::with_sphere();
     let splice = "[[splice]]\nrows = [0.5, 1]\neffects = { thermal = \"off\" }\n";
     let columns = |y: u32| {
         let more = format!("{splice}[[inset]]\npixel = [480, {y}]\nplace = \"upper-right\"\n");
-        let (picture, _) = desk.rendered("ball", &more, "");
+        let (picture, _) = rendered(&desk, "ball", &more, "");
         let inset = rectangle([960, 720], 0.4, "upper-right");
         [SURFACE, THERMAL].map(|color| columns_with(&picture, &inset, color))
     };
@@ -348,13 +323,13 @@ fn an_inset_shows_its_pixel_under_the_effects_of_its_splice() {
 
 #[test]
 fn four_insets_stand_in_four_corners() {
-    let desk = Desk::new();
+    let desk = Desk::with_sphere();
     let corners = ["upper-left", "upper-right", "lower-left", "lower-right"];
     let insets: String = corners
         .map(|place| format!("[[inset]]\nplace = \"{place}\"\nsize = 0.3\n"))
         .concat();
-    let (plain, _) = desk.rendered("plain", "", "");
-    let (drawn, _) = desk.rendered("drawn", &insets, "");
+    let (plain, _) = rendered(&desk, "plain", "", "");
+    let (drawn, _) = rendered(&desk, "drawn", &insets, "");
     let mut changed = changed(&plain, &drawn);
     for place in corners {
         let inset = rectangle([960, 720], 0.3, place);
@@ -368,13 +343,14 @@ fn four_insets_stand_in_four_corners() {
 #[test]
 fn threads_change_no_byte() {
     let bytes = |threads: u32| {
-        let desk = Desk::new();
-        desk.rendered(
+        let desk = Desk::with_sphere();
+        rendered(
+            &desk,
             "ball",
             "[[inset]]\n",
             &format!("--scale 0.5 --threads {threads}"),
         );
-        fs::read(desk.file("ball", "png")).unwrap()
+        fs::read(file(&desk, "ball", "png")).unwrap()
     };
     assert!(bytes(1) == bytes(2));
 }

@@ -1,11 +1,5 @@
 //! Curves that are narrower than the wavelengths are apart keep their light, whatever meets them
 //! and under any shift: against `accuracy.spectra = "exact"`, and in closed form.
-#![allow(
-    clippy::unwrap_used,
-    clippy::panic,
-    reason = "a test's helpers fail by panicking"
-)]
-
 use restframe::color::cie::{EFFICACY, xyz_bar};
 use restframe::plan;
 use restframe::scene::{

@@ -1,10 +1,5 @@
 //! The page about a shot's frames: each of them is on it, whatever became of it, and nothing on it
 //! is more than text.
-#![expect(
-    clippy::unwrap_used,
-    reason = "a test that cannot be set up has failed"
-)]
-
 use indexmap::IndexMap;
 use restframe::image::Metadata;
 use restframe::progress::FrameOutcome;

@@ -1,11 +1,7 @@
 //! `restframe plan` as its users call it: effects, reasons, traces, what is there, and what is left.
 
-#![expect(
-    clippy::unwrap_used,
-    reason = "a test that cannot be set up has failed"
-)]
-
-use assert_cmd::Command;
+use crate::common::WALL;
+use crate::common::desk::{Desk, Outcome};
 use restframe::image;
 use restframe::image::Metadata;
 use restframe::plan::FrameKey;
@@ -15,9 +11,6 @@ use restframe::store::{Names, Request, ShotFolder};
 use serde_json::{Value, json};
 use std::fs;
 use std::time::Instant;
-use tempfile::TempDir;
-
-const WALL: &str = "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nf 1 2 3 4\n";
 
 /// Five frames that heat up, then five that move.
 const SHOT: &str = r#"
@@ -41,71 +34,50 @@ position = [0, 0, 4]
 exposure = 0
 "#;
 
-struct Desk(TempDir);
+/// A folder with `wall.toml`.
+fn wall() -> Desk {
+    let desk = Desk::new();
+    desk.write("wall.obj", WALL);
+    desk.write("wall.toml", SHOT);
+    desk
+}
 
-impl Desk {
-    fn new() -> Self {
-        let desk = Self(tempfile::tempdir().unwrap());
-        desk.put("wall.obj", WALL);
-        desk.put("wall.toml", SHOT);
-        desk
-    }
+/// `restframe plan` with arguments that blanks part.
+fn planned(desk: &Desk, arguments: &str) -> Outcome {
+    desk.call(&format!("plan {arguments}"))
+}
 
-    fn put(&self, name: &str, text: impl AsRef<[u8]>) {
-        fs::write(self.0.path().join(name), text).unwrap();
-    }
+fn json(desk: &Desk, arguments: &str) -> Value {
+    let told = desk.done(&format!("plan {arguments} --json"));
+    serde_json::from_str(&told.stdout).unwrap()
+}
 
-    /// Exit status, standard output and standard error of `restframe plan`.
-    fn plan(&self, call: &[&str]) -> (i32, String, String) {
-        let mut command = Command::cargo_bin("restframe").unwrap();
-        let folder = self.0.path();
-        let done = command
-            .current_dir(folder)
-            .arg("plan")
-            .args(call)
-            .output()
-            .unwrap();
-        let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
-        (
-            done.status.code().unwrap(),
-            text(&done.stdout),
-            text(&done.stderr),
-        )
-    }
+fn shot_folder(desk: &Desk) -> ShotFolder {
+    let shot = shot::load(&desk.path("wall.toml")).unwrap();
+    let request = Request {
+        out: desk.path("renders"),
+        scale: 1.0,
+        samples: None,
+    };
+    ShotFolder::open(&shot, &request).unwrap()
+}
 
-    fn json(&self, call: &[&str]) -> Value {
-        let (status, out, err) = self.plan(&[call, &["--json"]].concat());
-        assert_eq!(status, 0, "{err}");
-        serde_json::from_str(&out).unwrap()
-    }
-
-    fn shot_folder(&self) -> ShotFolder {
-        let shot = shot::load(&self.0.path().join("wall.toml")).unwrap();
-        let request = Request {
-            out: self.0.path().join("renders"),
-            scale: 1.0,
-            samples: None,
-        };
-        ShotFolder::open(&shot, &request).unwrap()
-    }
-
-    /// Files and lines of the manifest as if these frames had been rendered, each in so many
-    /// seconds: four parts tracing, one part shading.
-    fn finish(&self, frames: &[(u32, f64)]) {
-        let shot_folder = self.shot_folder();
-        fs::create_dir_all(&shot_folder.path).unwrap();
-        let lines: Vec<String> = frames
-            .iter()
-            .map(|&(frame, seconds)| {
-                let name = shot_folder.names.frame(frame, "png");
-                let key = shot_folder.keys.frame(frame);
-                fs::write(shot_folder.path.join(&name), picture(&key)).unwrap();
-                record(frame, &key, &name, seconds).to_string()
-            })
-            .collect();
-        let manifest = Names::new(shot_folder.shot()).manifest(None);
-        fs::write(shot_folder.path.join(manifest), lines.join("\n")).unwrap();
-    }
+/// Files and lines of the manifest as if these frames had been rendered, each in so many
+/// seconds: four parts tracing, one part shading.
+fn finish(desk: &Desk, frames: &[(u32, f64)]) {
+    let shot_folder = shot_folder(desk);
+    fs::create_dir_all(&shot_folder.path).unwrap();
+    let lines: Vec<String> = frames
+        .iter()
+        .map(|&(frame, seconds)| {
+            let name = shot_folder.names.frame(frame, "png");
+            let key = shot_folder.keys.frame(frame);
+            fs::write(shot_folder.path.join(&name), picture(&key)).unwrap();
+            record(frame, &key, &name, seconds).to_string()
+        })
+        .collect();
+    let manifest = Names::new(shot_folder.shot()).manifest(None);
+    fs::write(shot_folder.path.join(manifest), lines.join("\n")).unwrap();
 }
 
 /// A picture of so many bytes that says what it is made of.
@@ -137,7 +109,7 @@ fn record(frame: u32, key: &FrameKey, name: &str, seconds: f64) -> Value {
 
 #[test]
 fn effects_and_traces_of_each_frame_follow_the_contract() {
-    let plan = Desk::new().json(&["wall.toml"]);
+    let plan = json(&wall(), "wall.toml");
     let frames = plan["frames"].as_array().unwrap();
     assert_eq!(frames.len(), 10);
     let still = json!({"geometry": false, "doppler": false, "beaming": false, "thermal": false,
@@ -174,7 +146,11 @@ fn effects_and_traces_of_each_frame_follow_the_contract() {
 
 #[test]
 fn the_text_says_the_same_of_frames_in_a_row_once_and_each_reason_once() {
-    let (status, out, err) = Desk::new().plan(&["wall.toml"]);
+    let Outcome {
+        status,
+        stdout: out,
+        stderr: err,
+    } = planned(&wall(), "wall.toml");
     assert_eq!((status, err.as_str()), (0, ""));
     let lines: Vec<&str> = out.lines().collect();
     assert!(
@@ -210,24 +186,24 @@ fn the_text_says_the_same_of_frames_in_a_row_once_and_each_reason_once() {
 
 #[test]
 fn finished_frames_are_fresh_until_what_they_are_made_of_changes() {
-    let desk = Desk::new();
-    desk.finish(&[(1, 1.0), (2, 1.0), (3, 1.0)]);
-    let plan = desk.json(&["wall.toml"]);
+    let desk = wall();
+    finish(&desk, &[(1, 1.0), (2, 1.0), (3, 1.0)]);
+    let plan = json(&desk, "wall.toml");
     assert_eq!(plan["totals"]["fresh"], 3);
     assert_eq!(plan["totals"]["disk_bytes"], 7 * 1000);
     assert_eq!(plan["frames"][0]["seconds"], 0.0);
-    desk.put("wall.toml", SHOT.replace("[5, 4000]", "[5, 5000]"));
-    let plan = desk.json(&["wall.toml"]);
+    desk.write("wall.toml", SHOT.replace("[5, 4000]", "[5, 5000]"));
+    let plan = json(&desk, "wall.toml");
     assert_eq!([&plan["totals"]["fresh"], &plan["totals"]["stale"]], [1, 2]);
-    let (_, out, _) = desk.plan(&["wall.toml"]);
+    let out = planned(&desk, "wall.toml").stdout;
     for stale in [
         "frame 2  stale because material.hot.thermal.temperature is 1250.0, was 1000.0  thermal  trace 0",
         "frame 3  stale because material.hot.thermal.temperature is 2500.0, was 2000.0  thermal  trace 0",
     ] {
         assert!(out.lines().any(|line| line == stale), "{out}");
     }
-    desk.put("wall.obj", WALL.replace("1 1 0", "1 1 0.5"));
-    let plan = desk.json(&["wall.toml", "--frames", "1"]);
+    desk.write("wall.obj", WALL.replace("1 1 0", "1 1 0.5"));
+    let plan = json(&desk, "wall.toml --frames 1");
     assert_eq!(plan["frames"][0]["stale_because"], "file wall.obj changed");
 }
 
@@ -235,9 +211,9 @@ fn finished_frames_are_fresh_until_what_they_are_made_of_changes() {
 /// 4 and 5 share a trace, 1.2 s + 0.6 s each; frame 6 has one of its own.
 #[test]
 fn seconds_are_those_of_finished_frames_and_a_shared_trace_counts_once() {
-    let desk = Desk::new();
-    desk.finish(&[(2, 2.0), (3, 4.0)]);
-    let plan = desk.json(&["wall.toml", "--frames", "4-6"]);
+    let desk = wall();
+    finish(&desk, &[(2, 2.0), (3, 4.0)]);
+    let plan = json(&desk, "wall.toml --frames 4-6");
     let seconds: Vec<f64> = (0..3)
         .map(|i| plan["frames"][i]["seconds"].as_f64().unwrap())
         .collect();
@@ -246,25 +222,17 @@ fn seconds_are_those_of_finished_frames_and_a_shared_trace_counts_once() {
     }
     assert_eq!(plan["totals"]["measured"], true);
     // A quarter of the pixels and of the samples.
-    let small = desk.json(&[
-        "wall.toml",
-        "--frames",
-        "6",
-        "--scale",
-        "0.5",
-        "--samples",
-        "1",
-    ]);
+    let small = json(&desk, "wall.toml --frames 6 --scale 0.5 --samples 1");
     let small = small["frames"][0]["seconds"].as_f64().unwrap();
     assert!((small - 3.0 / 16.0).abs() < 1e-9, "{small}");
 }
 
 #[test]
 fn another_shot_below_the_same_folder_is_better_than_a_guess() {
-    let desk = Desk::new();
-    desk.finish(&[(2, 3.0)]);
-    desk.put("other.toml", SHOT.replace("[0.5, 0, 0]", "[0, 0.5, 0]"));
-    let plan = desk.json(&["other.toml", "--frames", "8"]);
+    let desk = wall();
+    finish(&desk, &[(2, 3.0)]);
+    desk.write("other.toml", SHOT.replace("[0.5, 0, 0]", "[0, 0.5, 0]"));
+    let plan = json(&desk, "other.toml --frames 8");
     assert_eq!(plan["totals"]["measured"], true);
     let seconds = plan["totals"]["seconds"].as_f64().unwrap();
     assert!((seconds - 3.0).abs() < 1e-9, "{seconds}");
@@ -272,8 +240,8 @@ fn another_shot_below_the_same_folder_is_better_than_a_guess() {
 
 #[test]
 fn what_is_learnt_while_rendering_mends_the_estimate() {
-    let desk = Desk::new();
-    let shot_folder = desk.shot_folder();
+    let desk = wall();
+    let shot_folder = shot_folder(&desk);
     let mut costs = Costs::new(&shot_folder);
     let effects = ["thermal".to_owned()];
     assert!(
@@ -289,7 +257,7 @@ fn what_is_learnt_while_rendering_mends_the_estimate() {
 
 #[test]
 fn mistakes_end_with_status_2() {
-    let desk = Desk::new();
+    let desk = wall();
     for (text, words) in [
         (SHOT.replace("[0.5, 0, 0]", "[1.5, 0, 0]"), "speed"),
         (SHOT.replace("wall.obj", "none.obj"), "there is no file"),
@@ -298,17 +266,25 @@ fn mistakes_end_with_status_2() {
             "rgb",
         ),
     ] {
-        desk.put("bad.toml", text);
-        let (status, out, err) = desk.plan(&["bad.toml"]);
+        desk.write("bad.toml", text);
+        let Outcome {
+            status,
+            stdout: out,
+            stderr: err,
+        } = planned(&desk, "bad.toml");
         assert_eq!((status, out.as_str()), (2, ""), "{err}");
         assert!(err.contains(words), "{err}");
     }
     for call in [
-        &["wall.toml", "--frames", "11"][..],
-        &["wall.toml", "--scale", "1000"],
-        &["none.toml"],
+        "wall.toml --frames 11",
+        "wall.toml --scale 1000",
+        "none.toml",
     ] {
-        let (status, _, err) = desk.plan(call);
+        let Outcome {
+            status,
+            stderr: err,
+            ..
+        } = planned(&desk, call);
         assert_eq!(status, 2, "{err}");
         assert!(!err.is_empty());
     }
@@ -318,10 +294,10 @@ fn mistakes_end_with_status_2() {
 /// load.
 #[test]
 fn a_thousand_frames_are_planned_at_once() {
-    let desk = Desk::new();
-    desk.put("wall.toml", SHOT.replace("frames = 10", "frames = 1000"));
+    let desk = wall();
+    desk.write("wall.toml", SHOT.replace("frames = 10", "frames = 1000"));
     let begun = Instant::now();
-    let plan = desk.json(&["wall.toml"]);
+    let plan = json(&desk, "wall.toml");
     let seconds = begun.elapsed().as_secs_f64();
     eprintln!("1000 frames planned in {:.0} ms", 1e3 * seconds);
     assert_eq!(plan["totals"]["frames"], 1000);

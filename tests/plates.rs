@@ -5,16 +5,8 @@
 //! pixel and its neighbors see one material under nearly one Doppler factor, so that edges do not
 //! mix into them. D is ω_observed/ω_source; hues are those of the 8-bit picture in degrees.
 
-#![allow(
-    clippy::unwrap_used,
-    clippy::panic,
-    reason = "a test's helpers fail by panicking"
-)]
-
-mod plates {
-    pub(crate) mod animations;
-    pub(crate) mod array;
-    pub(crate) mod lattice;
-    pub(crate) mod rows;
-    pub(crate) mod thumbnail;
-}
+mod animations;
+mod array;
+mod lattice;
+mod rows;
+mod thumbnail;

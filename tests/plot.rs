@@ -1,14 +1,10 @@
 //! `restframe probe --plot`: what a reader of the plot measures with its ticks is what the probe
 //! says, and what Planck's law says.
 
-#![expect(clippy::unwrap_used, reason = "helpers of tests fail the test")]
-
-use assert_cmd::Command;
+use crate::common::desk::{Desk, Outcome};
 use roxmltree::{Document, Node};
 use serde_json::Value;
 use std::fs;
-use std::path::Path;
-use tempfile::TempDir;
 
 /// One pixel that sees a sphere which shines by a lamp, and one that may glow.
 const BALL: &str = r#"
@@ -38,40 +34,24 @@ hfov = 90
 exposure = 0
 "#;
 
-struct Desk(TempDir);
+/// A folder with `ball.toml`.
+fn ball(velocity: &str, temperature: &str) -> Desk {
+    let desk = Desk::with_sphere();
+    let shot = BALL.replace("VELOCITY", velocity);
+    desk.write("ball.toml", shot.replace("TEMPERATURE", temperature));
+    desk
+}
 
-impl Desk {
-    /// A folder with `ball.toml`.
-    fn new(velocity: &str, temperature: &str) -> Self {
-        let desk = Self(tempfile::tempdir().unwrap());
-        let model = Path::new(env!("CARGO_MANIFEST_DIR")).join("assets/sphere.obj");
-        fs::copy(model, desk.0.path().join("sphere.obj")).unwrap();
-        let shot = BALL.replace("VELOCITY", velocity);
-        let shot = shot.replace("TEMPERATURE", temperature);
-        fs::write(desk.0.path().join("ball.toml"), shot).unwrap();
-        desk
-    }
-
-    /// Status, standard output and standard error of a call.
-    fn call(&self, arguments: &str) -> (i32, String, String) {
-        let output = Command::new(env!("CARGO_BIN_EXE_restframe"))
-            .args(arguments.split_whitespace())
-            .current_dir(self.0.path())
-            .output()
-            .unwrap();
-        let text = |bytes| String::from_utf8(bytes).unwrap();
-        let status = output.status.code().unwrap();
-        (status, text(output.stdout), text(output.stderr))
-    }
-
-    /// The plot of a pixel, and its probe.
-    fn plot(&self, pixel: &str) -> (String, Value) {
-        let call = format!("probe ball.toml --pixel {pixel} --plot plot.svg --json");
-        let (status, stdout, stderr) = self.call(&call);
-        assert_eq!((status, stderr.as_str()), (0, ""));
-        let text = fs::read_to_string(self.0.path().join("plot.svg")).unwrap();
-        (text, serde_json::from_str(&stdout).unwrap())
-    }
+/// The plot of a pixel, and its probe.
+fn plot(desk: &Desk, pixel: &str) -> (String, Value) {
+    let told = desk.call(&format!(
+        "probe ball.toml --pixel {pixel} --plot plot.svg --json"
+    ));
+    assert_eq!((told.status, told.stderr.as_str()), (0, ""));
+    (
+        desk.read("plot.svg"),
+        serde_json::from_str(&told.stdout).unwrap(),
+    )
 }
 
 fn numbers(list: &Value) -> Vec<f64> {
@@ -196,8 +176,8 @@ fn value_of(label: &str) -> f64 {
 
 #[test]
 fn curves_in_the_window_are_the_probes_to_a_pixel() {
-    let desk = Desk::new("[0, 0, 0.3]", "2600");
-    let (text, probe) = desk.plot("1 1");
+    let desk = ball("[0, 0, 0.3]", "2600");
+    let (text, probe) = plot(&desk, "1 1");
     let document = Document::parse(&text).unwrap();
     let panel = Reader::new(&document, "panel-1");
     assert_eq!(panel.text("x-label"), "wavelength (nm)");
@@ -230,8 +210,8 @@ fn curves_in_the_window_are_the_probes_to_a_pixel() {
 fn thermal_light_in_the_wide_band_is_a_black_body_at_d_times_t() {
     let (h, c, k) = (6.626_070_15e-34, 299_792_458.0, 1.380_649e-23);
     for (velocity, temperature) in [("[0, 0, 0.3]", 2600.0), ("[0, 0, -0.9]", 300.0)] {
-        let desk = Desk::new(velocity, &temperature.to_string());
-        let (text, probe) = desk.plot("1 1");
+        let desk = ball(velocity, &temperature.to_string());
+        let (text, probe) = plot(&desk, "1 1");
         let document = Document::parse(&text).unwrap();
         let panel = Reader::new(&document, "panel-2");
         let (x, y) = (panel.ruler("x"), panel.ruler("y"));
@@ -254,8 +234,8 @@ fn thermal_light_in_the_wide_band_is_a_black_body_at_d_times_t() {
 
 #[test]
 fn the_caption_names_shot_frame_pixel_and_doppler_factor() {
-    let desk = Desk::new("[0, 0, 0.6]", "0");
-    let (text, _) = desk.plot("1 1");
+    let desk = ball("[0, 0, 0.6]", "0");
+    let (text, _) = plot(&desk, "1 1");
     let document = Document::parse(&text).unwrap();
     let caption = Reader::new(&document, "caption").text("caption");
     assert_eq!(
@@ -269,8 +249,8 @@ fn the_caption_names_shot_frame_pixel_and_doppler_factor() {
 
 #[test]
 fn the_same_pixel_gives_the_same_bytes() {
-    let desk = Desk::new("[0, 0, 0.3]", "2600");
-    assert!(desk.plot("1 1").0 == desk.plot("1 1").0);
+    let desk = ball("[0, 0, 0.3]", "2600");
+    assert!(plot(&desk, "1 1").0 == plot(&desk, "1 1").0);
 }
 
 /// Numbers are finite, and everything stands on the page.
@@ -301,8 +281,8 @@ fn is_sane(text: &str) {
 
 #[test]
 fn pixels_without_light_and_of_any_range_are_drawn() {
-    let still = Desk::new("[0, 0, 0]", "0");
-    let (black, _) = still.plot("0 0");
+    let still = ball("[0, 0, 0]", "0");
+    let (black, _) = plot(&still, "0 0");
     is_sane(&black);
     assert!(black.contains("no light in this band") && black.contains("sees the background"));
     for (velocity, temperature) in [
@@ -311,8 +291,8 @@ fn pixels_without_light_and_of_any_range_are_drawn() {
         ("{ gamma = 1e12, direction = [0, 0, 1] }", "1e5"),
         ("{ gamma = 1e12, direction = [0, 0, -1] }", "100"),
     ] {
-        let desk = Desk::new(velocity, temperature);
-        let (text, probe) = desk.plot("1 1");
+        let desk = ball(velocity, temperature);
+        let (text, probe) = plot(&desk, "1 1");
         assert!(probe["hit"].is_object(), "{velocity}");
         is_sane(&text);
         // What is shifted out of the window is found in the wide band.
@@ -329,8 +309,12 @@ fn pixels_without_light_and_of_any_range_are_drawn() {
 
 #[test]
 fn a_plot_that_cannot_be_written_is_a_failure_with_a_reason() {
-    let desk = Desk::new("[0, 0, 0]", "0");
-    let (status, stdout, stderr) = desk.call("probe ball.toml --pixel 1 1 --plot no/such/plot.svg");
+    let desk = ball("[0, 0, 0]", "0");
+    let Outcome {
+        status,
+        stdout,
+        stderr,
+    } = desk.call("probe ball.toml --pixel 1 1 --plot no/such/plot.svg");
     assert_eq!((status, stdout.as_str()), (1, ""));
     assert!(
         stderr.starts_with("error: cannot write no/such/plot.svg: "),
@@ -342,13 +326,14 @@ fn a_plot_that_cannot_be_written_is_a_failure_with_a_reason() {
             .ends_with("no/such must be an existing folder"),
         "{stderr}"
     );
-    let (status, ..) = desk.call("probe ball.toml --pixel 9 9 --plot plot.svg");
+    let Outcome { status, .. } = desk.call("probe ball.toml --pixel 9 9 --plot plot.svg");
     assert_eq!(status, 2);
-    let left: Vec<_> = fs::read_dir(desk.0.path()).unwrap().collect();
-    assert_eq!(left.len(), 2, "{left:?}");
-    let shot = fs::read(desk.0.path().join("ball.toml")).unwrap();
-    let (status, _, stderr) = desk.call("probe ball.toml --pixel 1 1 --plot ./ball.toml");
+    let left: Vec<_> = fs::read_dir(desk.path("")).unwrap().collect();
+    assert_eq!(left.len(), 3, "{left:?}");
+    let shot = fs::read(desk.path("ball.toml")).unwrap();
+    let Outcome { status, stderr, .. } =
+        desk.call("probe ball.toml --pixel 1 1 --plot ./ball.toml");
     assert_eq!(status, 2, "{stderr}");
     assert!(stderr.contains("the plot would take the place of the shot"));
-    assert!(fs::read(desk.0.path().join("ball.toml")).unwrap() == shot);
+    assert!(fs::read(desk.path("ball.toml")).unwrap() == shot);
 }

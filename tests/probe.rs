@@ -4,12 +4,6 @@
 //!
 //! The answers are asked of `probe` and of the image's own short cuts, with spectra baked and not.
 
-#![expect(
-    clippy::unwrap_used,
-    clippy::panic,
-    reason = "what cannot be read or resolved fails the test, and says which"
-)]
-
 use std::path::{Path, PathBuf};
 
 use rayon::prelude::*;
@@ -113,8 +107,13 @@ fn expected() -> Vec<Expected> {
     serde_json::from_str(&text).unwrap()
 }
 
-/// A probe, and XYZ of the same ray as images have it.
+/// [`answers`] of one pixel.
 fn answer(prepared: &Prepared, frame: u32, pixel: [u32; 2]) -> (Probe, [f64; 3]) {
+    answers(prepared, frame, &[pixel]).remove(0)
+}
+
+/// Probes, each with XYZ of the same ray as images have it.
+fn answers(prepared: &Prepared, frame: u32, pixels: &[[u32; 2]]) -> Vec<(Probe, [f64; 3])> {
     let shot = &prepared.shot;
     let scene = Scene::resolve(shot, &prepared.library, frame, None).unwrap();
     let stage = Stage::build(&scene.geometry, None);
@@ -124,15 +123,18 @@ fn answer(prepared: &Prepared, frame: u32, pixel: [u32; 2]) -> (Probe, [f64; 3])
         .unwrap()
         .0
         .stops(frame, shot.shot.frames);
-    let point = [0, 1].map(|i| (f64::from(pixel[i]) + 0.5) / f64::from(shot.image.size[i]));
-    let mut trees = ShadeTrees::default();
-    let direction = scene.camera.looks_along(point).unwrap();
-    view.tracer()
-        .trace(&[direction], &mut Scratch::default(), &mut trees);
-    let imaged = view
-        .shader()
-        .xyz(&trees, trees.roots[0], &mut ShadeScratch::default());
-    (probe(shot, frame, pixel, &view, &scene, stops), imaged)
+    let answer = |&pixel: &[u32; 2]| {
+        let point = [0, 1].map(|i| (f64::from(pixel[i]) + 0.5) / f64::from(shot.image.size[i]));
+        let mut trees = ShadeTrees::default();
+        let direction = scene.camera.looks_along(point).unwrap();
+        view.tracer()
+            .trace(&[direction], &mut Scratch::default(), &mut trees);
+        let imaged = view
+            .shader()
+            .xyz(&trees, trees.roots[0], &mut ShadeScratch::default());
+        (probe(shot, frame, pixel, &view, &scene, stops), imaged)
+    };
+    pixels.iter().map(answer).collect()
 }
 
 /// The largest difference of components.
@@ -366,6 +368,16 @@ impl Awkward {
 
     /// What a 5 x 5 image's pixel sees of `rest`, a shot's tables but for image and material.
     fn sees(&self, name: &str, rest: &str, pixel: [u32; 2]) -> Probe {
+        self.sees_at(name, rest, &[pixel]).remove(0)
+    }
+
+    /// All pixels of the image.
+    fn sees_everywhere(&self, name: &str, rest: &str) -> Vec<Probe> {
+        let pixels: Vec<[u32; 2]> = (0..25).map(|i| [i % 5, i / 5]).collect();
+        self.sees_at(name, rest, &pixels)
+    }
+
+    fn sees_at(&self, name: &str, rest: &str, pixels: &[[u32; 2]]) -> Vec<Probe> {
         let path = self.folder.path().join(format!("{name}.toml"));
         let text = format!(
             "[image]\nsize = [5, 5]\n[sensor]\nexposure = 0\n\
@@ -375,45 +387,46 @@ impl Awkward {
         std::fs::write(&path, text).unwrap();
         let prepared =
             Prepared::read(&path).unwrap_or_else(|mistakes| panic!("{name}: {mistakes}"));
-        let (probe, imaged) = answer(&prepared, 1, pixel);
-        let curves = probe.radiance.iter().chain(&probe.xyz).chain(&imaged);
-        for value in curves {
-            assert!(
-                value.is_finite() && *value >= 0.0,
-                "{name} {pixel:?}: {probe:?}"
-            );
+        let answers = answers(&prepared, 1, pixels);
+        for (probe, imaged) in &answers {
+            is_sane(name, probe, *imaged);
         }
-        assert!(
-            probe.rgb.iter().all(|v| v.is_finite()),
-            "{name} {pixel:?}: {:?}",
-            probe.rgb
-        );
-        if let Some(hit) = &probe.hit {
-            let [t, d, s] = [hit.event.t, hit.doppler, hit.distance];
-            assert!(
-                t.is_finite() && d.is_finite() && s.is_finite(),
-                "{name} {pixel:?}: {hit:?}"
-            );
-            assert!(d > 0.0 && s >= 0.0, "{name} {pixel:?}: {hit:?}");
-            let length = hit.normal.iter().map(|n| n * n).sum::<f64>();
-            assert!(
-                (length - 1.0).abs() < 1e-9,
-                "{name} {pixel:?}: normal {:?}",
-                hit.normal
-            );
-            assert!(
-                hit.event.x.iter().all(|x| x.is_finite()),
-                "{name} {pixel:?}: {hit:?}"
-            );
-        }
-        probe
+        answers.into_iter().map(|(probe, _)| probe).collect()
     }
+}
 
-    /// All pixels of the image.
-    fn sees_everywhere(&self, name: &str, rest: &str) -> Vec<Probe> {
-        (0..25)
-            .map(|i| self.sees(name, rest, [i % 5, i / 5]))
-            .collect()
+/// Asserts that nothing in an answer is beyond all numbers or below 0.
+fn is_sane(name: &str, probe: &Probe, imaged: [f64; 3]) {
+    let pixel = probe.pixel;
+    let curves = probe.radiance.iter().chain(&probe.xyz).chain(&imaged);
+    for value in curves {
+        assert!(
+            value.is_finite() && *value >= 0.0,
+            "{name} {pixel:?}: {probe:?}"
+        );
+    }
+    assert!(
+        probe.rgb.iter().all(|v| v.is_finite()),
+        "{name} {pixel:?}: {:?}",
+        probe.rgb
+    );
+    if let Some(hit) = &probe.hit {
+        let [t, d, s] = [hit.event.t, hit.doppler, hit.distance];
+        assert!(
+            t.is_finite() && d.is_finite() && s.is_finite(),
+            "{name} {pixel:?}: {hit:?}"
+        );
+        assert!(d > 0.0 && s >= 0.0, "{name} {pixel:?}: {hit:?}");
+        let length = hit.normal.iter().map(|n| n * n).sum::<f64>();
+        assert!(
+            (length - 1.0).abs() < 1e-9,
+            "{name} {pixel:?}: normal {:?}",
+            hit.normal
+        );
+        assert!(
+            hit.event.x.iter().all(|x| x.is_finite()),
+            "{name} {pixel:?}: {hit:?}"
+        );
     }
 }
 

@@ -2,17 +2,8 @@
 //! what they show where they look nowhere. `b9` and `d12` of the hard cases hold whole pictures
 //! of them against closed forms.
 
-#![expect(
-    clippy::unwrap_used,
-    clippy::panic,
-    reason = "helpers of tests fail the test"
-)]
-
-#[path = "hard_cases/scene.rs"]
-mod scene;
-
-use assert_cmd::Command;
-use scene::Set;
+use crate::common::desk::Desk;
+use crate::hard_cases::scene::Set;
 
 /// Between two ways to one direction, which differ by rounding.
 const ROUNDING: f64 = 1e-12;
@@ -139,35 +130,27 @@ fn a_pixel_on_the_circle_is_as_bright_as_the_part_of_it_that_is_inside() {
 
 #[test]
 fn probe_says_where_nothing_is_seen() {
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("dome.toml");
-    let assets = concat!(env!("CARGO_MANIFEST_DIR"), "/assets/sphere.obj");
-    std::fs::copy(assets, folder.path().join("sphere.obj")).unwrap();
+    let desk = Desk::with_sphere();
     let text = "[image]\nsize = [40, 20]\n[background]\nspectrum = 1.0\n\
                 [[model]]\nfile = \"sphere.obj\"\nmaterial = \"m\"\n\
                 [material.m]\ndiffuse = { weight = 0.5, spectrum = 1.0 }\n\
                 [camera]\nposition = [0, 0, 9]\nprojection = \"fisheye\"\n";
-    std::fs::write(&path, text).unwrap();
-    let probed = |pixel: [&str; 2], more: &[&str]| {
-        let mut command = Command::cargo_bin("restframe").unwrap();
-        command
-            .arg("probe")
-            .arg(&path)
-            .args(["--frame", "1", "--pixel"]);
-        let output = command.args(pixel).args(more).output().unwrap();
-        assert!(output.status.success());
-        String::from_utf8(output.stdout).unwrap()
+    desk.write("dome.toml", text);
+    let probed = |pixel: &str| {
+        let call = format!("probe dome.toml --frame 1 --pixel {pixel}");
+        desk.done(&call).stdout
     };
-    let text = probed(["9", "10"], &[]);
+    let text = probed("9 10");
     assert!(
         text.contains("sees nothing: it lies outside of the fisheye's circle"),
         "{text}"
     );
-    assert!(probed(["11", "10"], &[]).contains("sees the background"));
-    assert!(probed(["20", "10"], &[]).contains("sees model"));
-    let json =
-        |pixel| -> serde_json::Value { serde_json::from_str(&probed(pixel, &["--json"])).unwrap() };
-    let nothing = json(["9", "10"]);
+    assert!(probed("11 10").contains("sees the background"));
+    assert!(probed("20 10").contains("sees model"));
+    let json = |pixel: &str| -> serde_json::Value {
+        serde_json::from_str(&probed(&format!("{pixel} --json"))).unwrap()
+    };
+    let nothing = json("9 10");
     assert!(nothing["hit"].is_null());
     let radiance = nothing["radiance"].as_array().unwrap();
     assert_eq!(
@@ -175,7 +158,7 @@ fn probe_says_where_nothing_is_seen() {
         nothing["wavelengths"].as_array().unwrap().len()
     );
     assert!(radiance.iter().all(|value| value.as_f64() == Some(0.0)));
-    let sky = json(["11", "10"]);
+    let sky = json("11 10");
     assert!(sky["hit"].is_null());
     assert!(sky["xyz"][1].as_f64().unwrap() > 0.0);
 }

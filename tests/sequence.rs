@@ -1,9 +1,4 @@
 //! Frames of one sequence: each is the same picture alone and after its neighbours.
-#![expect(
-    clippy::unwrap_used,
-    reason = "a test that cannot be set up has failed"
-)]
-
 use restframe::progress::{Event, FrameOutcome, Progress};
 use restframe::queue::{Force, Output, RenderedFrame, Run, Settings};
 use restframe::store::Request;

@@ -1,16 +1,13 @@
 //! Memory of images that share a trace: beside the films and the shaders' tables it does not grow
-//! with their number. One test alone in its process, whose greatest memory it reads.
-#![cfg(target_os = "linux")]
-#![expect(
-    clippy::unwrap_used,
-    reason = "a test that cannot be set up has failed"
-)]
+//! with their number. The test reads the greatest memory of its process and so runs in one of its own:
+//! this binary once more.
 
 use restframe::render::Prepared;
 use restframe::render::{Member, Options, View, Watch, film_bytes, render_together};
 use restframe::scene::Scene;
 use restframe::trace::Stage;
 use std::path::Path;
+use std::process::Command;
 use std::sync::atomic::AtomicBool;
 
 /// Balls before each other's mirrors, so that trees are large.
@@ -84,8 +81,24 @@ fn shader(prepared: &Prepared) -> u64 {
     view.shader().bytes() as u64
 }
 
+/// Set where the process is the test's own.
+const ALONE: &str = "RESTFRAME_TEST_ALONE";
+
 #[test]
 fn memory_grows_by_films_and_no_more_tables_than_are_allowed() {
+    if std::env::var_os(ALONE).is_none() {
+        let name = "shared_memory::memory_grows_by_films_and_no_more_tables_than_are_allowed";
+        let alone = Command::new(std::env::current_exe().unwrap())
+            .args(["--exact", name, "--nocapture"])
+            .env(ALONE, "1")
+            .output()
+            .unwrap();
+        let text = |bytes| String::from_utf8(bytes).unwrap();
+        let (said, failed) = (text(alone.stdout), text(alone.stderr));
+        println!("{said}");
+        assert!(said.contains("1 passed"), "{said}{failed}");
+        return;
+    }
     /// What the allocator keeps, and a member's few words.
     const SLACK: u64 = 8 << 20;
     let options = Options {

@@ -1,13 +1,6 @@
 //! Images that share a trace: each is to the bit what it is alone, whatever tells them apart and on
 //! however many threads; and together they can be stopped, and say where their time went.
-#![expect(
-    clippy::unwrap_used,
-    reason = "a test that cannot be set up has failed"
-)]
-
-#[path = "shared_traces/together.rs"]
 mod together;
-#[path = "shared_traces/watched.rs"]
 mod watched;
 
 use restframe::film::Film;

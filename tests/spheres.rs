@@ -1,20 +1,8 @@
 //! Spheres found in models, and bodies with spheres of another tessellation: areas, volumes and
 //! pictures go to those of exact spheres as 4^−level.
 
-#![expect(
-    clippy::unwrap_used,
-    clippy::panic,
-    reason = "helpers of tests fail the test"
-)]
-
-#[path = "hard_cases/eye.rs"]
-#[expect(dead_code, reason = "other tests need the rest")]
-mod eye;
-#[path = "hard_cases/scene.rs"]
-#[expect(dead_code, reason = "other tests need the rest")]
-mod scene;
-
-use eye::{Eye, sphere, triangles};
+use crate::hard_cases::eye::{Eye, sphere, triangles};
+use crate::hard_cases::scene::Set;
 use glam::DVec3;
 use restframe::model::Mesh;
 use restframe::model::{Model, load};
@@ -23,7 +11,6 @@ use restframe::scene::{Geometry, Instance, Scene};
 use restframe::study::displacement::{Displacement, displacement_of_spheres};
 use restframe::study::spheres::{Sphere, spheres, tessellated};
 use restframe::trace::Stage;
-use scene::Set;
 use std::f64::consts::PI;
 use std::path::Path;
 use std::sync::Arc;

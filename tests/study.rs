@@ -1,7 +1,5 @@
 //! `restframe study`: its figures against renders made here, and what must hold in every report.
-#![expect(clippy::panic, reason = "helpers of tests fail the test")]
-
-use assert_cmd::Command;
+use crate::common::desk::{Desk, Outcome};
 use restframe::image::compare::relative_rmse;
 use restframe::render::Prepared;
 use restframe::render::{Options, render};
@@ -228,25 +226,15 @@ fn what_an_image_does_not_call_for_is_told_and_a_static_one_has_rgb() {
 fn the_command_writes_three_files_and_leaves_nothing_else() {
     let path = shot("command", "[0.3, 0, 0]", "");
     let out = folder("command-out");
-    let mut command = Command::cargo_bin("restframe").expect("it is built");
-    let done = command
-        .args([
-            "study",
-            "--scale",
-            "0.05",
-            "--samples",
-            "1",
-            "--repeats",
-            "1",
-            "--json",
-        ])
+    let done = Desk::new()
+        .command("study --scale 0.05 --samples 1 --repeats 1 --json")
         .arg(&path)
         .arg("--out")
         .arg(&out)
-        .assert()
-        .success();
-    let printed: serde_json::Value =
-        serde_json::from_slice(&done.get_output().stdout).expect("JSON alone");
+        .output();
+    let done = Outcome::of(done.expect("it runs"));
+    assert_eq!(done.status, 0, "{}", done.stderr);
+    let printed: serde_json::Value = serde_json::from_str(&done.stdout).expect("JSON alone");
     assert_eq!(printed["size"], serde_json::json!([16, 9]));
     let mut names: Vec<String> = std::fs::read_dir(out.join("command"))
         .expect("the folder is there")
@@ -265,9 +253,9 @@ fn the_command_writes_three_files_and_leaves_nothing_else() {
 #[test]
 fn a_frame_that_the_shot_has_not_is_refused() {
     let path = shot("refused", "[0, 0, 0]", "");
-    let mut command = Command::cargo_bin("restframe").expect("it is built");
-    let refused = command.args(["study", "--frame", "2"]).arg(&path).assert();
-    let refused = refused.code(2);
-    let said = String::from_utf8_lossy(&refused.get_output().stderr).into_owned();
+    let refused = Desk::new().command("study --frame 2").arg(&path).output();
+    let refused = Outcome::of(refused.expect("it runs"));
+    assert_eq!(refused.status, 2);
+    let said = refused.stderr;
     assert!(said.contains("the shot has frames 1 to 1, not 2"), "{said}");
 }

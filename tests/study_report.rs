@@ -1,11 +1,8 @@
 //! The report of a study: the page, the table and the JSON hold what was found, whatever it is.
 //!
-//! To look at the pages: `cargo test --test study_report`, then open study/study.html and
+//! To look at the pages: `cargo test --test suite study_report::`, then open study/study.html and
 //! noisy/study.html in target/tmp/study-report.
 
-#![expect(clippy::unwrap_used, reason = "helpers of tests fail the test")]
-
-#[path = "study_report/study.rs"]
 mod fixture;
 
 use fixture::{AWKWARD, noisy, study};

@@ -1,18 +1,7 @@
 //! The observation window: bands from gamma rays to radio, against closed forms.
-#![expect(
-    clippy::unwrap_used,
-    clippy::panic,
-    reason = "a test that cannot be set up has failed"
-)]
-
-#[path = "hard_cases/scene.rs"]
-mod scene;
-#[path = "hard_cases/wall.rs"]
-mod wall;
-
+use crate::hard_cases::scene::Set;
+use crate::hard_cases::wall::wall;
 use restframe::film::{Channels, auto_exposure};
-use scene::Set;
-use wall::wall;
 
 /// hc/k, nm·K, and 2hc², W·m⁻²·sr⁻¹·nm⁴ (CODATA 2018).
 const C2: f64 = 1.438_776_877_503_933_8e7;

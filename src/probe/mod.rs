@@ -11,7 +11,7 @@ use crate::relativity::Event;
 use crate::render::{self, Enough, LabPath, View, development};
 use crate::scene::{Lobe, Scene};
 use crate::shade::{Radiance, ShadeScratch};
-use crate::shot::{Accuracy, Effects, Shot, Spectra};
+use crate::shot::{Effects, Shot, Spectra};
 use crate::trace::{Branch, Node, Scratch, Seen, ShadeTrees, Surface};
 use glam::DVec3;
 use serde::Serialize;
@@ -129,9 +129,7 @@ pub fn probe(
         light = if matches!(shot.accuracy.spectra, Spectra::Grid | Spectra::Rgb) {
             // The grid's own curves are made for sums: what bends is smoothed. Three numbers have
             // none.
-            let Accuracy { wavelengths, .. } = shot.accuracy;
-            let exact = view.shader_over(shot.sensor.window, wavelengths);
-            exact.radiance(&trees, root)
+            view.curves(shot).radiance(&trees, root)
         } else {
             shader.radiance(&trees, root)
         };

@@ -17,6 +17,8 @@ pub struct View<'a> {
     pub called: Called,
     standing: Arc<Standing>,
     shader: Shader,
+    /// Made when first asked for.
+    curves: OnceLock<Shader>,
     bounces: u32,
     cutoff: f64,
     /// Largest |ln D| between a surface and the camera, and between a lamp and a surface.
@@ -74,6 +76,7 @@ impl<'a> View<'a> {
             called,
             standing,
             shader,
+            curves: OnceLock::new(),
             bounces,
             cutoff: shot.accuracy.cutoff,
         })
@@ -104,6 +107,13 @@ impl<'a> View<'a> {
             lamp_reach,
         };
         Shader::new(self.scene, &settings)
+    }
+
+    /// The shader of curves over the sensor's own window, made once for all pixels that are asked
+    /// about.
+    pub fn curves(&self, shot: &Shot) -> &Shader {
+        self.curves
+            .get_or_init(|| self.shader_over(shot.sensor.window, shot.accuracy.wavelengths))
     }
 
     /// A shader of this image over another band (nm), for curves rather than pictures: spectra are

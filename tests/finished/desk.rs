@@ -1,5 +1,6 @@
 //! A folder with a shot of ten frames, rendered by the command itself, to be tampered with.
 
+use crate::common::desk::{self as common, Outcome};
 use restframe::film::{Developed, Layers};
 use restframe::image::Metadata;
 use restframe::image::exr::Depth;
@@ -8,8 +9,6 @@ use restframe::store::{FileRecord, Record, Request, Seconds, ShotFolder};
 use serde_json::Value;
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::process::Command;
-use tempfile::TempDir;
 
 /// Frames of the shot.
 pub(crate) const FRAMES: u32 = 10;
@@ -46,20 +45,13 @@ TAIL
 /// The usual size and sampling.
 pub(crate) const SMALL: &str = "[image]\nsize = [64, 64]\nsamples = 2";
 
-/// How a call ended, and what it said.
-pub(crate) struct Outcome {
-    pub(crate) status: i32,
-    pub(crate) stdout: String,
-    pub(crate) stderr: String,
-}
-
 /// A folder in which restframe is called.
-pub(crate) struct Desk(TempDir);
+pub(crate) struct Desk(common::Desk);
 
 impl Desk {
     /// The shot with additions, rendered.
     pub(crate) fn new(head: &str, tail: &str) -> Self {
-        let desk = Self(tempfile::tempdir().unwrap());
+        let desk = Self(common::Desk::new());
         let square = "v -0.5 -0.5 0\nv 0.5 -0.5 0\nv 0.5 0.5 0\nv -0.5 0.5 0\nf 1 2 3 4\n";
         fs::write(desk.path("square.obj"), square).unwrap();
         // Nothing is assembled yet.
@@ -83,7 +75,7 @@ impl Desk {
 
     /// A file of the desk.
     pub(crate) fn path(&self, name: &str) -> PathBuf {
-        self.0.path().join(name)
+        self.0.path(name)
     }
 
     /// A file beside the frames.
@@ -109,17 +101,8 @@ impl Desk {
 
     /// Calls restframe with programs looked for in other folders.
     pub(crate) fn call_with_path(&self, arguments: &[&str], path: &str) -> Outcome {
-        let output = Command::new(env!("CARGO_BIN_EXE_restframe"))
-            .current_dir(self.0.path())
-            .args(arguments)
-            .env("PATH", path)
-            .output()
-            .unwrap();
-        Outcome {
-            status: output.status.code().unwrap(),
-            stdout: String::from_utf8(output.stdout).unwrap(),
-            stderr: String::from_utf8(output.stderr).unwrap(),
-        }
+        let mut command = self.0.command("");
+        Outcome::of(command.args(arguments).env("PATH", path).output().unwrap())
     }
 
     /// Puts a program called ffmpeg into a folder, which gets first in the path that is returned.

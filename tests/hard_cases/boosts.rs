@@ -2,12 +2,12 @@
 //!
 //! ε is 2⁻⁵². Each bound is the row's own where it has one; else it says what makes it.
 
-use crate::card::Card;
-use crate::numbers::{Random, angle, columns, determinant, off_metric, product};
-use crate::pictures::{
+use super::card::Card;
+use super::numbers::{Random, angle, columns, determinant, off_metric, product};
+use super::pictures::{
     Picture, bits, changed, difference, far_wall, glow, hits, pixels_of_worldlines,
 };
-use crate::poincare::Poincare;
+use super::poincare::Poincare;
 use glam::DVec3;
 use restframe::film::Film;
 use restframe::relativity::{

@@ -2,9 +2,9 @@
 //!
 //! ε is 2⁻⁵². n is the direction in which light travels, towards the camera; D = ω_observed/ω_source.
 
-use crate::numbers::{Random, product};
-use crate::pictures::{Picture, far_wall, glow};
-use crate::scene::Set;
+use super::numbers::{Random, product};
+use super::pictures::{Picture, far_wall, glow};
+use super::scene::Set;
 use glam::DVec3;
 use restframe::probe::{Probe, ProbeHit};
 use restframe::relativity::{Boost, Celerity, SeenLight, Transform, Worldline};

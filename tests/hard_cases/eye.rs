@@ -1,7 +1,7 @@
 //! Rays of a set's camera by their directions, the round bodies that they meet, and numbers to
 //! draw them from.
 
-use crate::scene::Set;
+use super::scene::Set;
 use glam::DVec3;
 use restframe::model::Mesh;
 use restframe::probe::{Probe, probe};

@@ -1,6 +1,6 @@
 //! E. Lamps and glowing surfaces of model files: how bright they are, and of which white.
 
-use crate::scene::Set;
+use super::scene::Set;
 use restframe::color::spaces::{RGB_FROM_XYZ, XYZ_FROM_RGB, apply};
 use restframe::probe::Probe;
 use std::f64::consts::PI;

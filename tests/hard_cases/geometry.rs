@@ -1,7 +1,7 @@
 //! D. Geometry: where and when moving things are seen. What hides what is in `visibility`.
 
-use crate::eye::{Dice, Eye, Met, across, inner_radius, sphere};
-use crate::scene::Set;
+use super::eye::{Dice, Eye, Met, across, inner_radius, sphere};
+use super::scene::Set;
 use glam::DVec3;
 use restframe::probe::ProbeHit;
 use restframe::relativity::{Boost, Celerity, Event, FourVector, light_arriving};
@@ -194,7 +194,7 @@ cases! {
 }
 
 /// A mesh's outline stands between the circles of the spheres that it encloses and is enclosed by.
-fn outline_of_a_mesh(card: &mut crate::card::Card, eye: &Eye<'_>) {
+fn outline_of_a_mesh(card: &mut super::card::Card, eye: &Eye<'_>) {
     let (u, event) = (
         eye.scene.worldlines[1].celerity,
         eye.view().spacetime().camera_event(1),

@@ -8,9 +8,9 @@
 //! or a facet, nearer than this may see the other side of it: of the 1536 of each picture here
 //! none does.
 
-use crate::card::Card;
-use crate::poincare::Poincare;
-use crate::scene::Set;
+use super::card::Card;
+use super::poincare::Poincare;
+use super::scene::Set;
 use glam::DVec3;
 use restframe::film::Film;
 use restframe::render::View;

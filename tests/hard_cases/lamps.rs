@@ -1,7 +1,7 @@
 //! E. Lamps and shadows.
 
-use crate::eye::{Eye, sphere};
-use crate::scene::Set;
+use super::eye::{Eye, sphere};
+use super::scene::Set;
 use glam::DVec3;
 use restframe::probe::Probe;
 use restframe::relativity::Celerity;

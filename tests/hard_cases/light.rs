@@ -1,7 +1,7 @@
 //! C. Radiometry and spectra.
 
-use crate::files::Files;
-use crate::scene::Set;
+use super::files::Files;
+use super::scene::Set;
 use restframe::film::Film;
 use restframe::probe::Probe;
 use restframe::spectrum::{Beyond, Cardinal, PlanckShape, Spectrum, planck};

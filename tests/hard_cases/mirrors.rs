@@ -1,6 +1,6 @@
 //! E. Mirrors and glass.
 
-use crate::scene::Set;
+use super::scene::Set;
 use glam::DVec3;
 use restframe::probe::{Probe, ProbeNode};
 use restframe::relativity::{Boost, Celerity};

@@ -1,6 +1,6 @@
 //! E. Moving lamps.
 
-use crate::scene::Set;
+use super::scene::Set;
 use glam::DVec3;
 use restframe::relativity::{Event, light_arriving};
 use restframe::trace::Spacetime;

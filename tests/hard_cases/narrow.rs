@@ -1,6 +1,6 @@
 //! C. Lines and filters narrower than the sensor's wavelengths are apart.
 
-use crate::scene::Set;
+use super::scene::Set;
 use restframe::color::cie::{EFFICACY, xyz_bar};
 use restframe::spectrum::illuminant;
 use std::f64::consts::PI;

@@ -1,6 +1,6 @@
 //! B and D. The whole sky at once.
 
-use crate::scene::Set;
+use super::scene::Set;
 use std::f64::consts::{PI, TAU};
 
 cases! {

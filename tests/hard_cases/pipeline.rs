@@ -1,9 +1,9 @@
 //! G. The program as a whole. G3 waits for spectral EXR files, which are not written yet.
 
-use crate::card::Card;
-use crate::files::Files;
-use crate::scene::Set;
-use crate::swept::{GLARE, INSIDE, SCENES};
+use super::card::Card;
+use super::files::Files;
+use super::scene::Set;
+use super::swept::{GLARE, INSIDE, SCENES};
 use rayon::ThreadPoolBuilder;
 use rayon::prelude::*;
 use restframe::color::cie;

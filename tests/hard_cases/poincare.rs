@@ -14,7 +14,7 @@
 //!
 //! The boosts are written out here and are not those of `relativity`, whose work the pictures test.
 
-use crate::numbers::Random;
+use super::numbers::Random;
 use glam::{DAffine3, DMat3, DQuat, DVec3};
 use restframe::relativity::{Celerity, Event, Worldline};
 use restframe::scene::{Background, Camera, Geometry, Light, LightShape, Scene};

@@ -1,7 +1,7 @@
 //! D. Visibility: what hides what, and that nothing is missed.
 
-use crate::eye::{Dice, Eye, Met, across, inner_radius, plane, sphere, triangles};
-use crate::scene::Set;
+use super::eye::{Dice, Eye, Met, across, inner_radius, plane, sphere, triangles};
+use super::scene::Set;
 use glam::DVec3;
 use rayon::prelude::*;
 use restframe::relativity::Event;

@@ -1,6 +1,6 @@
 //! One wall in one pixel, for what concerns light alone.
 
-use crate::scene::Set;
+use super::scene::Set;
 
 /// A wall that fills the one pixel, comes on at `beta`, and is lit from the front by `sun`
 /// (W·m⁻²·nm⁻¹ at all wavelengths).

@@ -1,7 +1,7 @@
 //! C. Windows of the sensor.
 
-use crate::scene::Set;
-use crate::wall::wall;
+use super::scene::Set;
+use super::wall::wall;
 
 cases! {
     /// β = 0.6 head-on is D = 2. Relative tolerances: 1e-13 for spectral radiance, whose

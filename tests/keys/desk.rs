@@ -1,9 +1,8 @@
 //! A folder with a shot and its files, for the tests beside.
 
+use crate::common::desk::Desk;
 use restframe::plan::{Digests, FrameKey, Keys, Picture};
 use restframe::shot::{Shot, parse};
-use std::path::PathBuf;
-use tempfile::TempDir;
 
 /// Two triangles and a slanted third, of two materials.
 const MODEL: &str = "mtllib paints.mtl\nv -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nv 0 0 1\n\
@@ -11,26 +10,16 @@ const MODEL: &str = "mtllib paints.mtl\nv -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\n
 const PAINTS: &str = "newmtl wall\nKd 0.8 0.2 0.1\nnewmtl roof\nKd 0.1 0.7 0.2\nKe 0 0.1 0\n";
 
 /// The folder.
-pub(crate) struct Desk(pub(crate) TempDir);
+pub(crate) fn house() -> Desk {
+    let desk = Desk::new();
+    desk.write("house.obj", MODEL);
+    desk.write("paints.mtl", PAINTS);
+    desk.write("paint.csv", "400,0\n500,0.5\n600,1\n");
+    desk.write("stars.csv", "0,0,6000,1\n90,10,9000,2\n");
+    desk
+}
 
 impl Desk {
-    pub(crate) fn new() -> Self {
-        let desk = Self(tempfile::tempdir().unwrap());
-        desk.put("house.obj", MODEL);
-        desk.put("paints.mtl", PAINTS);
-        desk.put("paint.csv", "400,0\n500,0.5\n600,1\n");
-        desk.put("stars.csv", "0,0,6000,1\n90,10,9000,2\n");
-        desk
-    }
-
-    pub(crate) fn path(&self, name: &str) -> PathBuf {
-        self.0.path().join(name)
-    }
-
-    pub(crate) fn put(&self, name: &str, text: impl AsRef<[u8]>) {
-        std::fs::write(self.path(name), text).unwrap();
-    }
-
     /// A shot of this text in the folder.
     pub(crate) fn shot(&self, text: &str) -> Shot {
         match parse(text, &self.path("shot.toml")) {

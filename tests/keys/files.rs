@@ -1,6 +1,7 @@
 //! Hashes of files: every file that a shot reads counts, and each byte of it.
 
-use super::desk::Desk;
+use super::desk::house;
+use crate::common::desk::Desk;
 use restframe::plan::Digests;
 
 const SHOT: &str = r#"
@@ -29,17 +30,17 @@ position = [0, 0, 5]
 "#;
 
 fn desk() -> Desk {
-    let desk = Desk::new();
-    desk.put("unused.csv", "400,0\n500,0.5\n");
-    desk.put("sky.png", "no picture, but a file of some bytes");
+    let desk = house();
+    desk.write("unused.csv", "400,0\n500,0.5\n");
+    desk.write("sky.png", "no picture, but a file of some bytes");
     let json = r#"{"asset":{"version":"2.0"},"buffers":[{"byteLength":3,"uri":"some%20parts.bin"},
         {"byteLength":3,"uri":"data:application/octet-stream;base64,AAAA"}],
         "images":[{"uri":"painting.png"}]}"#;
-    desk.put("parts.gltf", json);
-    desk.put("some parts.bin", [1, 2, 3]);
-    desk.put("painting.png", "a picture that nobody reads");
-    desk.put("whole.glb", glb(r#"{"asset":{"version":"2.0"},"buffers":[{"byteLength":4},{"byteLength":3,"uri":"far.bin"}]} "#));
-    desk.put("far.bin", [4, 5, 6]);
+    desk.write("parts.gltf", json);
+    desk.write("some parts.bin", [1, 2, 3]);
+    desk.write("painting.png", "a picture that nobody reads");
+    desk.write("whole.glb", glb(r#"{"asset":{"version":"2.0"},"buffers":[{"byteLength":4},{"byteLength":3,"uri":"far.bin"}]} "#));
+    desk.write("far.bin", [4, 5, 6]);
     desk
 }
 
@@ -107,7 +108,7 @@ fn one_byte_of_any_file_changes_its_hash_alone() {
         std::fs::write(&path, &bytes).unwrap();
     }
     // What nobody reads does not count.
-    desk.put("painting.png", "another");
+    desk.write("painting.png", "another");
     assert_eq!(digests(&desk), before);
 }
 
@@ -128,10 +129,10 @@ fn material_libraries_are_found_as_the_loader_finds_them() {
         ("mtllib paints.mtl # and no more", 1),
         ("mtllib C:\\lib\\PAINTS.MTL", 1),
     ] {
-        let desk = Desk::new();
-        desk.put("more.mtl", "newmtl x\n");
-        desk.put("my paints.mtl", "newmtl y\n");
-        desk.put(
+        let desk = house();
+        desk.write("more.mtl", "newmtl x\n");
+        desk.write("my paints.mtl", "newmtl y\n");
+        desk.write(
             "house.obj",
             format!("v 0 0 0\nv 1 0 0\nv 0 1 0\n{line}\nf 1 2 3"),
         );
@@ -151,14 +152,14 @@ fn a_part_that_is_not_there_or_not_allowed_has_no_hash() {
         "https://example.org/x.bin",
     ] {
         let desk = desk();
-        desk.put(
+        desk.write(
             "parts.gltf",
             format!(r#"{{"buffers":[{{"byteLength":3,"uri":"{uri}"}}]}}"#),
         );
         let names = |digests: &Digests| digests.iter().map(|(name, _)| name).collect::<Vec<_>>();
         let before = digests(&desk);
         assert!(!names(&before).contains(&uri.to_owned()), "{uri}");
-        desk.put("none.bin", [1, 2, 3]);
+        desk.write("none.bin", [1, 2, 3]);
         let counts = uri == "none.bin";
         assert_eq!(digests(&desk) != before, counts, "{uri}");
     }
@@ -173,9 +174,9 @@ fn parts_of_a_text_that_is_mended_count() {
     ] {
         let desk = desk();
         std::fs::create_dir(desk.path("x")).unwrap();
-        desk.put("parts.gltf", text);
+        desk.write("parts.gltf", text);
         let before = digests(&desk);
-        desk.put("far.bin", [9, 9, 9]);
+        desk.write("far.bin", [9, 9, 9]);
         let after = digests(&desk);
         let differ = before.iter().zip(after.iter()).filter(|(a, b)| a != b);
         // That of the other model that names it, and this one's.
@@ -192,7 +193,7 @@ fn broken_models_have_hashes_all_the_same() {
         b"glTF\x02\0\0\0\0\0\0\0\xff\xff\xff\xffJSON{",
         b"{\"buffers\":3}",
     ] {
-        desk.put("whole.glb", bytes);
+        desk.write("whole.glb", bytes);
         let digests = digests(&desk);
         let hash = blake3::hash(bytes).to_hex();
         assert!(
@@ -210,14 +211,14 @@ fn of_buffers(desk: &Desk, uris: impl Iterator<Item = String>) -> Digests {
         .collect();
     let json = format!(r#"{{"buffers":[{}]}}"#, buffers.join(","));
     // Of a known length, so that it is known how many bytes are left.
-    desk.put("m.gltf", format!("{json:60000}"));
+    desk.write("m.gltf", format!("{json:60000}"));
     Digests::read(&desk.shot("[[model]]\nfile = \"m.gltf\"\n[camera]\n")).unwrap()
 }
 
 #[test]
 fn a_part_counts_behind_others_that_together_exceed_what_is_read() {
     const NAMES: u64 = 32;
-    let desk = Desk::new();
+    let desk = house();
     let zeros = std::fs::File::create(desk.path("zeros.bin")).unwrap();
     // One file under as many names that fewer bytes are left than the last has.
     zeros.set_len(((2 << 30) - 60_000) / NAMES).unwrap();
@@ -225,21 +226,21 @@ fn a_part_counts_behind_others_that_together_exceed_what_is_read() {
         let names = (0..NAMES as usize).map(|i| format!("{}zeros.bin", "./".repeat(i)));
         names.chain(["used.bin".to_owned()])
     };
-    desk.put("used.bin", [1; 42]);
+    desk.write("used.bin", [1; 42]);
     let before = of_buffers(&desk, uris());
     assert_eq!(before.iter().count() as u64, 1 + NAMES + 1);
     let mut changed = [1; 42];
     changed[41] = 2;
-    desk.put("used.bin", changed);
+    desk.write("used.bin", changed);
     assert_ne!(of_buffers(&desk, uris()), before);
 }
 
 #[test]
 fn a_part_that_alone_exceeds_what_is_read_has_no_hash_and_the_next_has() {
-    let desk = Desk::new();
+    let desk = house();
     let huge = std::fs::File::create(desk.path("huge.bin")).unwrap();
     huge.set_len((2 << 30) - 1).unwrap();
-    desk.put("used.bin", [1]);
+    desk.write("used.bin", [1]);
     let digests = of_buffers(
         &desk,
         ["huge.bin", "used.bin"].map(str::to_owned).into_iter(),
@@ -250,13 +251,13 @@ fn a_part_that_alone_exceeds_what_is_read_has_no_hash_and_the_next_has() {
 
 #[test]
 fn a_part_counts_behind_more_than_may_be_open_at_once() {
-    let desk = Desk::new();
+    let desk = house();
     let uris = || (0..1200).map(|i| format!("{i}.bin"));
     for uri in uris() {
-        desk.put(&uri, [1]);
+        desk.write(&uri, [1]);
     }
     let before = of_buffers(&desk, uris());
     assert_eq!(before.iter().count(), 1 + 1200);
-    desk.put("1199.bin", [2]);
+    desk.write("1199.bin", [2]);
     assert_ne!(of_buffers(&desk, uris()), before);
 }

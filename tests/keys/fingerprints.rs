@@ -1,6 +1,7 @@
 //! Fingerprints: what changes them, of which frames, and what does not.
 
-use super::desk::Desk;
+use super::desk::house;
+use crate::common::desk::Desk;
 use restframe::plan::FrameKey;
 use std::time::Instant;
 
@@ -59,7 +60,7 @@ fn with(from: &str, to: &str) -> String {
 
 #[test]
 fn a_changed_keyframe_changes_exactly_the_frames_that_it_moves() {
-    let desk = Desk::new();
+    let desk = house();
     // The key on frame 4 leads from frame 1 to frame 7, both excluded.
     let moved = with("[4, [0.5, 0, 0]]", "[4, [0.6, 0, 0]]");
     assert_eq!(differing(&desk, SHOT, &moved), [2, 3, 4, 5, 6]);
@@ -72,8 +73,8 @@ fn a_changed_keyframe_changes_exactly_the_frames_that_it_moves() {
 
 #[test]
 fn what_no_pixel_shows_changes_nothing() {
-    let desk = Desk::new();
-    desk.put("spare.csv", "400,0.1\n700,0.2\n");
+    let desk = house();
+    desk.write("spare.csv", "400,0.1\n700,0.2\n");
     let without = |text: &str| {
         text.replace("\"paint\"", "0.5")
             .replace("[spectrum.paint]\nfile = \"paint.csv\"\n", "")
@@ -127,7 +128,7 @@ fn what_no_pixel_shows_changes_nothing() {
 
 #[test]
 fn a_longer_shot_keeps_the_frames_whose_values_stay() {
-    let desk = Desk::new();
+    let desk = house();
     let keyed = with("{ from = 0, to = 800 }", "800");
     let longer = keyed.replace("frames = 9", "frames = 12");
     assert_eq!(differing(&desk, &keyed, &longer), [0; 0]);
@@ -135,7 +136,7 @@ fn a_longer_shot_keeps_the_frames_whose_values_stay() {
 
 #[test]
 fn whatever_reaches_pixels_changes_every_frame() {
-    let desk = Desk::new();
+    let desk = house();
     let all: Vec<usize> = (1..=9).collect();
     for (from, to) in [
         ("[64, 36]", "[128, 72]"),
@@ -163,7 +164,7 @@ fn whatever_reaches_pixels_changes_every_frame() {
 
 #[test]
 fn the_order_of_worldlines_counts_where_a_layer_numbers_them() {
-    let desk = Desk::new();
+    let desk = house();
     let exr = with("[\"png\"]", "[\"exr\"]\nlayers = [\"worldline\"]");
     let other = "[worldline.other]\nvelocity = [0, 0, 0.5]\n";
     let moved = exr
@@ -176,7 +177,7 @@ fn the_order_of_worldlines_counts_where_a_layer_numbers_them() {
 
 #[test]
 fn a_metered_exposure_makes_every_frame_depend_on_the_first() {
-    let desk = Desk::new();
+    let desk = house();
     let metered = with("exposure = 1", "exposure = \"auto\"");
     let moved = metered.replace("[1, [0, 0, 0]]", "[1, [0.1, 0, 0]]");
     assert_eq!(differing(&desk, &metered, &moved).len(), 9);
@@ -196,7 +197,7 @@ fn a_metered_exposure_makes_every_frame_depend_on_the_first() {
 
 #[test]
 fn parts_are_named_and_valued_as_their_author_would_write_them() {
-    let desk = Desk::new();
+    let desk = house();
     let parts = desk.all(SHOT)[0].parts.clone();
     for (key, value) in [
         ("camera.pan", "1.0"),
@@ -231,7 +232,7 @@ fn parts_are_named_and_valued_as_their_author_would_write_them() {
 /// that it has processors for; the bound is for slower ones.
 #[test]
 fn a_thousand_frames_have_their_keys_at_once() {
-    let desk = Desk::new();
+    let desk = house();
     let text = SHOT.replace("frames = 9", "frames = 1000");
     let keys = desk.keys(&text);
     let begun = Instant::now();

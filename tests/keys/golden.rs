@@ -3,7 +3,8 @@
 
 #![cfg(target_arch = "x86_64")]
 
-use super::desk::Desk;
+use super::desk::house;
+use crate::common::desk::Desk;
 use restframe::film::develop;
 use restframe::film::to_rgb8;
 use restframe::plan::EPOCH;
@@ -104,8 +105,8 @@ fn pixels(desk: &Desk, subject: &str) -> Vec<u8> {
 
 #[test]
 fn pixels_change_only_with_the_epoch() {
-    let desk = Desk::new();
-    desk.put(
+    let desk = house();
+    desk.write(
         "wall.obj",
         "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nusemtl none\nf 1 2 3 4\n",
     );

@@ -1,8 +1,7 @@
 //! Shots at one frame: nothing moves, the text reads as an equal shot, and what it says of a
 //! picture renders it again.
 
-use super::desk::Desk;
-use assert_cmd::Command;
+use super::desk::house;
 use restframe::plan;
 use restframe::shot::{Places, Sequence, Shot, parse, schema};
 use serde_json::Value;
@@ -141,7 +140,7 @@ fn the_text_of_a_shot_reads_as_an_equal_shot() {
 
 #[test]
 fn a_shot_of_defaults_is_written_without_them() {
-    let desk = Desk::new();
+    let desk = house();
     let text = "[[model]]\nfile = \"house.obj\"\n\n[camera]\n";
     assert_eq!(desk.shot(text).to_toml(), text);
 }
@@ -166,26 +165,10 @@ fn pixels(png: &[u8]) -> Vec<u8> {
     pixels
 }
 
-fn render(desk: &Desk, shot: &str, options: &[&str]) {
-    let mut command = Command::cargo_bin("restframe").unwrap();
-    let call = ["render", shot, "--progress", "none"];
-    let done = command
-        .current_dir(desk.0.path())
-        .args(call)
-        .args(options)
-        .output()
-        .unwrap();
-    assert!(
-        done.status.success(),
-        "{}",
-        String::from_utf8_lossy(&done.stderr)
-    );
-}
-
 #[test]
 fn a_frame_is_rendered_again_from_what_its_picture_says() {
-    let desk = Desk::new();
-    desk.put(
+    let desk = house();
+    desk.write(
         "pass.toml",
         r#"
 [shot]
@@ -214,12 +197,12 @@ gif = true
 "#,
     );
     // Samples asked for in the call are written down too.
-    render(&desk, "pass.toml", &["--frames", "4", "--samples", "3"]);
+    desk.done("render pass.toml --progress none --frames 4 --samples 3");
     let first = std::fs::read(desk.path("renders/pass/pass.0004.png")).unwrap();
     let text = text_of(&first, "restframe:shot");
     assert!(!text.contains("gif") && !text.contains("auto"), "{text}");
-    desk.put("again.toml", text);
-    render(&desk, "again.toml", &[]);
+    desk.write("again.toml", text);
+    desk.done("render again.toml --progress none");
     let second = std::fs::read(desk.path("renders/again/again.0001.png")).unwrap();
     assert!(
         pixels(&first).iter().any(|value| *value > 0),
@@ -284,17 +267,17 @@ formats = ["png", "exr"]
 #[test]
 fn pixels_do_not_tell_whether_a_value_was_written_as_a_ramp_or_as_a_number() {
     for text in HOW_IT_IS_WRITTEN {
-        let desk = Desk::new();
-        desk.put("ramp.toml", format!("{text}{CAMERA}"));
-        render(&desk, "ramp.toml", &["--frames", "1"]);
+        let desk = house();
+        desk.write("ramp.toml", format!("{text}{CAMERA}"));
+        desk.done("render ramp.toml --progress none --frames 1");
         let file = |name: &str| std::fs::read(desk.path(name)).unwrap();
         let ramp = file("renders/ramp/ramp.0001.png");
         assert!(
             pixels(&ramp).iter().any(|value| *value > 0),
             "black: {text}"
         );
-        desk.put("number.toml", text_of(&ramp, "restframe:shot"));
-        render(&desk, "number.toml", &[]);
+        desk.write("number.toml", text_of(&ramp, "restframe:shot"));
+        desk.done("render number.toml --progress none");
         let number = file("renders/number/number.0001.png");
         assert_eq!(pixels(&ramp), pixels(&number), "{text}");
         let fingerprint = |png: &[u8]| text_of(png, "restframe:fingerprint");

@@ -1,7 +1,8 @@
 //! Trace keys: equal ones mean equal shade trees, whatever is changed; and what only shading reads
 //! changes none.
 
-use super::desk::Desk;
+use super::desk::house;
+use crate::common::desk::Desk;
 use rayon::prelude::*;
 use restframe::render::{View, rows, spliced};
 use restframe::scene::{Library, Scene};
@@ -116,8 +117,8 @@ cutoff = 0.01
 
 /// The rich shot's folder.
 fn desk() -> Desk {
-    let desk = Desk::new();
-    desk.put(
+    let desk = house();
+    desk.write(
         "wall.obj",
         "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nusemtl none\nf 1 2 3 4\n",
     );
@@ -387,7 +388,7 @@ fn what_only_shading_reads_shares_the_trace() {
 #[test]
 fn the_units_of_a_file_s_lamps_shade_anew_and_trace_nothing() {
     let desk = desk();
-    desk.put(
+    desk.write(
         "lamp.gltf",
         r#"{ "asset": { "version": "2.0" }, "scenes": [{ "nodes": [0] }], "scene": 0,
             "nodes": [{ "translation": [0, 2, 3],
@@ -419,7 +420,7 @@ fn a_spectrum_s_name_and_the_shot_s_own_path_are_no_part_of_a_trace() {
     assert_eq!(desk.all(&renamed)[0].trace, desk.all(RICH)[0].trace);
     let elsewhere = self::desk();
     assert_eq!(elsewhere.all(RICH)[0].trace, desk.all(RICH)[0].trace);
-    elsewhere.put(
+    elsewhere.write(
         "wall.obj",
         "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0.1\nusemtl none\nf 1 2 3 4\n",
     );

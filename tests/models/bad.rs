@@ -1,6 +1,7 @@
 //! Broken and hostile model files: refused by a message that names the fault, never by a panic.
 
 use super::blender::here;
+use base64::prelude::{BASE64_STANDARD, Engine};
 use restframe::model::{ModelError, load};
 use restframe::shot::FileError;
 use serde_json::{Value, json};
@@ -44,7 +45,7 @@ pub(crate) fn triangle() -> Value {
 pub(crate) fn with_buffer(bytes: &[u8], mut gltf: Value) -> Value {
     let uri = format!(
         "data:application/octet-stream;base64,{}",
-        base64::encode(bytes)
+        BASE64_STANDARD.encode(bytes)
     );
     gltf["buffers"] = json!([{ "byteLength": bytes.len(), "uri": uri }]);
     gltf
@@ -239,7 +240,7 @@ fn required_extensions_that_are_not_supported_are_named_with_the_way_out() {
 #[test]
 fn numbers_that_are_not_finite_are_refused() {
     for value in [f32::NAN, f32::INFINITY] {
-        let mut bytes = base64::decode(data(&triangle())).unwrap();
+        let mut bytes = BASE64_STANDARD.decode(data(&triangle())).unwrap();
         bytes[4..8].copy_from_slice(&value.to_le_bytes());
         let message = refusal(|gltf| *gltf = with_buffer(&bytes, gltf.take()));
         assert!(
@@ -247,7 +248,7 @@ fn numbers_that_are_not_finite_are_refused() {
             "{message}"
         );
     }
-    let mut bytes = base64::decode(data(&triangle())).unwrap();
+    let mut bytes = BASE64_STANDARD.decode(data(&triangle())).unwrap();
     bytes[40..42].copy_from_slice(&900u16.to_le_bytes());
     let message = refusal(|gltf| *gltf = with_buffer(&bytes, gltf.take()));
     assert!(message.contains("vertex 900, but only 3"), "{message}");
@@ -373,7 +374,7 @@ fn a_part_is_read_from_a_folder_that_is_allowed_and_no_other() {
     write(
         folder.path(),
         "my part.bin",
-        &base64::decode(data(&gltf)).unwrap(),
+        &BASE64_STANDARD.decode(data(&gltf)).unwrap(),
     );
     gltf["buffers"][0]["uri"] = json!("../my%20part.bin");
     let path = write(&models, "m.gltf", gltf.to_string().as_bytes());

@@ -3,6 +3,7 @@
 
 use super::bad::{data, refusal, triangle, with_buffer, write};
 use super::shapes::{floats, read};
+use base64::prelude::{BASE64_STANDARD, Engine};
 use glam::{DQuat, DVec3};
 use restframe::model::{Model, Warning, load};
 use serde_json::{Value, json};
@@ -247,7 +248,7 @@ fn glb(json: &[u8], version: u32) -> Vec<u8> {
 #[test]
 fn data_uris_are_read_in_every_form() {
     let base64 = data(&triangle());
-    let bytes = base64::decode(&base64).unwrap();
+    let bytes = BASE64_STANDARD.decode(&base64).unwrap();
     let percent: String = bytes.iter().map(|byte| format!("%{byte:02X}")).collect();
     let (front, back) = base64.split_at(20);
     for uri in [
@@ -500,7 +501,7 @@ fn a_glb_of_version_1_is_gltf_1() {
 #[test]
 fn a_buffer_is_found_as_its_name_is_meant() {
     let folder = tempfile::tempdir().unwrap();
-    let bytes = base64::decode(data(&triangle())).unwrap();
+    let bytes = BASE64_STANDARD.decode(data(&triangle())).unwrap();
     std::fs::create_dir(folder.path().join("sub")).unwrap();
     for name in ["a%20b.bin", "c d.bin", "sub/e f.bin", "100%.bin"] {
         write(folder.path(), name, &bytes);

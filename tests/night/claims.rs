@@ -1,10 +1,11 @@
 //! Two processes at work on one folder.
 
-use super::desk::{Desk, Outcome, PASSING};
+use super::desk::{PASSING, passing};
+use crate::common::desk::Outcome;
 
 #[test]
 fn of_two_processes_at_once_each_frame_is_rendered_by_one() {
-    let desk = Desk::new();
+    let desk = passing();
     // Long enough for both to be at work.
     desk.write(
         "passing.toml",
@@ -16,7 +17,7 @@ fn of_two_processes_at_once_each_frame_is_rendered_by_one() {
     let outcomes = children.map(|child| Outcome::of(child.wait_with_output().unwrap()));
     let mut rendered = Vec::new();
     for outcome in &outcomes {
-        assert_eq!(outcome.status, Some(0), "{}", outcome.stderr);
+        assert_eq!(outcome.status, 0, "{}", outcome.stderr);
         let all = [outcome.frames("rendered"), outcome.frames("kept")].concat();
         assert_eq!(all.len(), 20, "each tells of every frame");
         let own = outcome.frames("rendered");
@@ -35,7 +36,7 @@ fn of_two_processes_at_once_each_frame_is_rendered_by_one() {
 /// The file of a lock alone, as a killed process leaves it, claims nothing.
 #[test]
 fn locks_and_files_that_a_killed_process_left_block_nothing_and_are_swept() {
-    let desk = Desk::new();
+    let desk = passing();
     std::fs::create_dir_all(desk.path("renders/passing/.passing.locks")).unwrap();
     desk.write("renders/passing/.passing.locks/0001", "");
     desk.write("renders/passing/.passing.locks/sequence", "");

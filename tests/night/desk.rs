@@ -1,11 +1,10 @@
 //! A folder with shots, in which the program is called.
 
+use crate::common::desk::{Desk, Outcome};
 use serde_json::Value;
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::process::{Child, Command, Output, Stdio};
-use tempfile::TempDir;
 
 /// A sphere that speeds up: no two frames share a trace.
 pub(crate) const PASSING: &str = r#"
@@ -48,67 +47,15 @@ exposure = -4
 formats = ["png", "exr"]
 "#;
 
-/// The folder.
-pub(crate) struct Desk(TempDir);
+/// A folder with `passing.toml`, `glowing.toml` and their model.
+pub(crate) fn passing() -> Desk {
+    let desk = Desk::with_sphere();
+    desk.write("passing.toml", PASSING);
+    desk.write("glowing.toml", GLOWING);
+    desk
+}
 
 impl Desk {
-    /// With `passing.toml`, `glowing.toml` and their model.
-    pub(crate) fn new() -> Self {
-        let desk = Self(tempfile::tempdir().unwrap());
-        let assets = Path::new(env!("CARGO_MANIFEST_DIR")).join("assets");
-        for name in ["sphere.obj", "sphere.mtl"] {
-            fs::copy(assets.join(name), desk.path(name)).unwrap();
-        }
-        desk.write("passing.toml", PASSING);
-        desk.write("glowing.toml", GLOWING);
-        desk
-    }
-
-    pub(crate) fn path(&self, name: &str) -> PathBuf {
-        self.0.path().join(name)
-    }
-
-    pub(crate) fn write(&self, name: &str, text: &str) {
-        fs::write(self.path(name), text).unwrap();
-    }
-
-    /// The program, to be called with arguments that blanks part.
-    pub(crate) fn command(&self, arguments: &str) -> Command {
-        let mut command = Command::new(env!("CARGO_BIN_EXE_restframe"));
-        command
-            .args(arguments.split_whitespace())
-            .current_dir(self.0.path())
-            .stdin(Stdio::null())
-            .stdout(Stdio::piped())
-            .stderr(Stdio::piped());
-        command
-    }
-
-    pub(crate) fn spawn(&self, arguments: &str) -> Child {
-        self.command(arguments).spawn().unwrap()
-    }
-
-    pub(crate) fn call(&self, arguments: &str) -> Outcome {
-        Outcome::of(self.command(arguments).output().unwrap())
-    }
-
-    /// Runs a line of shell, in which `$restframe` is the program.
-    pub(crate) fn shell(&self, line: &str) -> Outcome {
-        let mut command = Command::new("bash");
-        command
-            .args(["-c", line])
-            .current_dir(self.0.path())
-            .env("restframe", env!("CARGO_BIN_EXE_restframe"));
-        Outcome::of(command.output().unwrap())
-    }
-
-    /// A call that must succeed.
-    pub(crate) fn done(&self, arguments: &str) -> Outcome {
-        let outcome = self.call(arguments);
-        assert_eq!(outcome.status, Some(0), "{}", outcome.stderr);
-        outcome
-    }
-
     /// Names of all files below a folder, hidden ones too.
     pub(crate) fn names(&self, folder: &str) -> Vec<String> {
         let mut names = Vec::new();
@@ -169,24 +116,7 @@ fn walk(folder: &Path, files: &mut Vec<PathBuf>) {
     }
 }
 
-/// How a call ended, and what it said.
-pub(crate) struct Outcome {
-    pub(crate) status: Option<i32>,
-    pub(crate) stdout: String,
-    pub(crate) stderr: String,
-}
-
 impl Outcome {
-    pub(crate) fn of(output: Output) -> Self {
-        let stderr = String::from_utf8(output.stderr).unwrap();
-        assert!(!stderr.contains("panicked"), "{stderr}");
-        Self {
-            status: output.status.code(),
-            stdout: String::from_utf8(output.stdout).unwrap(),
-            stderr,
-        }
-    }
-
     /// The events on standard output.
     pub(crate) fn events(&self) -> Vec<Value> {
         events(&self.stdout)

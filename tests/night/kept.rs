@@ -1,11 +1,11 @@
 //! What is there already, and why it is not enough.
 
-use super::desk::{Desk, PASSING};
+use super::desk::{PASSING, passing};
 use std::fs;
 
 #[test]
 fn a_night_of_fresh_frames_reads_no_model_and_records_nothing() {
-    let desk = Desk::new();
+    let desk = passing();
     // The model's warning shows whether it is read.
     let model = fs::read_to_string(desk.path("sphere.obj")).unwrap();
     desk.write("sphere.obj", &format!("{model}\nl 1 2\n"));
@@ -26,7 +26,7 @@ fn a_night_of_fresh_frames_reads_no_model_and_records_nothing() {
 
 #[test]
 fn what_has_changed_is_rendered_anew_with_the_reason() {
-    let desk = Desk::new();
+    let desk = passing();
     desk.done("render passing.toml --frames 1-2");
     desk.write(
         "passing.toml",
@@ -49,7 +49,7 @@ fn what_has_changed_is_rendered_anew_with_the_reason() {
 
 #[test]
 fn a_picture_that_was_cut_or_taken_away_is_rendered_anew() {
-    let desk = Desk::new();
+    let desk = passing();
     desk.done("render glowing.toml --out whole");
     desk.done("render glowing.toml");
     let path = |name: &str| desk.path("renders/glowing").join(name);
@@ -76,7 +76,7 @@ fn a_picture_that_was_cut_or_taken_away_is_rendered_anew() {
 
 #[test]
 fn a_folder_survives_without_its_manifest_but_not_its_broken_pictures() {
-    let desk = Desk::new();
+    let desk = passing();
     desk.done("render glowing.toml");
     fs::remove_file(desk.path("renders/glowing/glowing.manifest.jsonl")).unwrap();
     let exr = desk.path("renders/glowing/glowing.0003.exr");
@@ -96,7 +96,7 @@ fn a_folder_survives_without_its_manifest_but_not_its_broken_pictures() {
 /// A frame that is decoded each time would show that a byte of it has been turned.
 #[test]
 fn frames_found_without_a_manifest_are_written_down_and_not_decoded_again() {
-    let desk = Desk::new();
+    let desk = passing();
     desk.done("render glowing.toml");
     let manifest = desk.path("renders/glowing/glowing.manifest.jsonl");
     fs::remove_file(&manifest).unwrap();
@@ -119,7 +119,7 @@ fn frames_found_without_a_manifest_are_written_down_and_not_decoded_again() {
 
 #[test]
 fn force_renders_what_is_fresh_to_the_same_bytes() {
-    let desk = Desk::new();
+    let desk = passing();
     desk.done("render glowing.toml");
     let before = desk.pictures("renders");
     let outcome = desk.done("render glowing.toml --force --json");

@@ -1,6 +1,6 @@
 //! Killed without a word.
 
-use super::desk::{Desk, PASSING};
+use super::desk::{PASSING, passing};
 use restframe::store::{Request, ShotFolder, Status};
 use std::io::{BufRead, BufReader};
 use std::time::Instant;
@@ -18,7 +18,7 @@ const FRAMES: u32 = 40;
 /// Two formats, so that a frame can be torn between them.
 #[test]
 fn after_ten_kills_every_frame_is_whole_or_absent_and_the_bytes_are_those_of_one_run() {
-    let desk = Desk::new();
+    let desk = passing();
     let shot = PASSING.replace("frames = 20", &format!("frames = {FRAMES}"));
     let formats = "[output]\nformats = [\"png\", \"exr\"]";
     desk.write("passing.toml", &format!("{shot}{formats}"));
@@ -70,7 +70,7 @@ fn after_ten_kills_every_frame_is_whole_or_absent_and_the_bytes_are_those_of_one
 
 #[test]
 fn a_line_that_a_kill_tore_off_is_closed_and_the_frame_known_by_its_picture() {
-    let desk = Desk::new();
+    let desk = passing();
     desk.done("render passing.toml --frames 1-3");
     let manifest = desk.path("renders/passing/passing.manifest.jsonl");
     let text = std::fs::read_to_string(&manifest).unwrap();

@@ -1,10 +1,10 @@
 //! What programs are told.
 
-use super::desk::{Desk, events};
+use super::desk::{events, passing};
 
 #[test]
 fn each_event_is_a_line_of_json_and_the_last_is_the_summary() {
-    let desk = Desk::new();
+    let desk = passing();
     desk.done("render glowing.toml --frames 2");
     let outcome = desk.done("render glowing.toml passing.toml --frames 1-3 --json");
     let told = outcome.events();
@@ -38,7 +38,7 @@ fn each_event_is_a_line_of_json_and_the_last_is_the_summary() {
 
 #[test]
 fn progress_as_json_is_on_standard_error_alone() {
-    let desk = Desk::new();
+    let desk = passing();
     let outcome = desk.done("render passing.toml --frames 1-2 --progress json");
     assert_eq!(outcome.stdout, "");
     let kinds: Vec<_> = events(&outcome.stderr)
@@ -50,7 +50,7 @@ fn progress_as_json_is_on_standard_error_alone() {
 
 #[test]
 fn open_job_description_is_told_per_cents_that_rise_to_100_and_frames() {
-    let desk = Desk::new();
+    let desk = passing();
     let outcome = desk.done("render passing.toml --frames 1-5 --progress openjd");
     let mut percents = Vec::new();
     let mut frames = 0;
@@ -71,18 +71,18 @@ fn open_job_description_is_told_per_cents_that_rise_to_100_and_frames() {
         "{percents:?}"
     );
     let both = desk.call("render passing.toml --json --progress openjd");
-    assert_eq!(both.status, Some(2));
+    assert_eq!(both.status, 2);
 }
 
 #[cfg(target_os = "linux")]
 #[test]
 fn events_that_are_lost_for_want_of_room_make_a_failure_of_a_finished_run() {
-    let desk = Desk::new();
+    let desk = passing();
     for mode in ["--json", "--progress openjd"] {
         let outcome = desk.shell(&format!(
             "exec $restframe render passing.toml --frames 1-3 {mode} > /dev/full"
         ));
-        assert_eq!(outcome.status, Some(1), "{mode}: {}", outcome.stderr);
+        assert_eq!(outcome.status, 1, "{mode}: {}", outcome.stderr);
         let told = outcome.stderr.contains("error: standard output: ");
         assert!(told, "{mode}: {}", outcome.stderr);
         assert_eq!(desk.pictures("renders").len(), 3);
@@ -91,7 +91,7 @@ fn events_that_are_lost_for_want_of_room_make_a_failure_of_a_finished_run() {
 
 #[test]
 fn readers_who_go_away_do_no_harm() {
-    let desk = Desk::new();
+    let desk = passing();
     let line = "($restframe render passing.toml --json 2>&1; echo $? > status) | head -c 1";
     desk.shell(line);
     assert_eq!(std::fs::read_to_string(desk.path("status")).unwrap(), "0\n");

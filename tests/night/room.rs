@@ -1,15 +1,15 @@
 //! No room, or no way to write.
 
-use super::desk::Desk;
+use super::desk::passing;
 use std::fs;
 
 /// Without a handler the signal that goes with the limit would end the process.
 #[test]
 fn a_limit_on_file_sizes_fails_one_shot_with_a_sentence_and_tears_nothing() {
-    let desk = Desk::new();
+    let desk = passing();
     // Blocks of a KiB: pictures of `glowing` fit while they are dark, its manifest while it is short.
     let outcome = desk.shell("ulimit -f 4; exec $restframe render glowing.toml --json");
-    assert_eq!(outcome.status, Some(1), "{}", outcome.stderr);
+    assert_eq!(outcome.status, 1, "{}", outcome.stderr);
     assert!(
         outcome.stderr.contains("raise the limit on file sizes"),
         "{}",
@@ -47,9 +47,9 @@ fn a_limit_on_file_sizes_fails_one_shot_with_a_sentence_and_tears_nothing() {
 
 #[test]
 fn work_that_there_is_no_room_for_is_not_waited_for() {
-    let desk = Desk::new();
+    let desk = passing();
     let outcome = desk.shell("ulimit -f 4; exec $restframe render glowing.toml --progress openjd");
-    assert_eq!(outcome.status, Some(1), "{}", outcome.stderr);
+    assert_eq!(outcome.status, 1, "{}", outcome.stderr);
     let mut percents = outcome.stdout.lines().rev();
     let last = percents.find_map(|line| line.strip_prefix("openjd_progress: "));
     assert_eq!(last, Some("100.0"), "{}", outcome.stdout);
@@ -57,7 +57,7 @@ fn work_that_there_is_no_room_for_is_not_waited_for() {
 
 #[test]
 fn a_full_disk_ends_its_shot_and_what_is_there_is_whole_and_kept_later() {
-    let desk = Desk::new();
+    let desk = passing();
     fs::create_dir(desk.path("disk")).unwrap();
     let line = "mount -t tmpfs -o size=64k tmpfs disk || exit 77
         $restframe render passing.toml --out disk --json; echo $? > status
@@ -95,11 +95,11 @@ fn a_full_disk_ends_its_shot_and_what_is_there_is_whole_and_kept_later() {
 
 #[test]
 fn a_shot_that_cannot_be_written_leaves_the_rest_of_the_queue_unharmed() {
-    let desk = Desk::new();
+    let desk = passing();
     fs::create_dir(desk.path("renders")).unwrap();
     desk.write("renders/passing", "a file");
     let outcome = desk.call("render passing.toml glowing.toml --json");
-    assert_eq!(outcome.status, Some(1));
+    assert_eq!(outcome.status, 1);
     assert!(
         outcome.stderr.contains("error: passing.toml: "),
         "{}",
@@ -111,7 +111,7 @@ fn a_shot_that_cannot_be_written_leaves_the_rest_of_the_queue_unharmed() {
 
 #[test]
 fn a_read_only_folder_is_found_before_its_first_frame() {
-    let desk = Desk::new();
+    let desk = passing();
     desk.done("render glowing.toml --frames 1");
     let line = "mount --bind renders renders && mount -o remount,ro,bind renders || exit 77
         $restframe render glowing.toml --json; echo $? > status";

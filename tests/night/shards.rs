@@ -1,11 +1,12 @@
 //! Shared among machines.
 
-use super::desk::{Desk, Outcome, PASSING};
+use super::desk::{PASSING, passing};
+use crate::common::desk::Outcome;
 use std::fs;
 
 #[test]
 fn shards_in_any_order_on_any_threads_are_the_whole_byte_by_byte() {
-    let desk = Desk::new();
+    let desk = passing();
     desk.done("render passing.toml glowing.toml --out whole");
     let whole = desk.pictures("whole");
     assert_eq!(whole.len(), 20 + 2 * 6);
@@ -31,7 +32,7 @@ fn shards_in_any_order_on_any_threads_are_the_whole_byte_by_byte() {
 /// Else each machine would deal out what is left after the folders that it cannot read.
 #[test]
 fn machines_deal_alike_though_one_cannot_read_a_folder() {
-    let desk = Desk::new();
+    let desk = passing();
     let other = PASSING.replace("[0.8, 0, 0]", "[0.7, 0, 0]");
     desk.write("other.toml", &other);
     fs::create_dir(desk.path("one")).unwrap();
@@ -41,7 +42,7 @@ fn machines_deal_alike_though_one_cannot_read_a_folder() {
         desk.call(&format!("{call} --out {out} --shard {k}/2"))
     };
     let [one, two] = [call("one", 1), call("two", 2)];
-    assert_eq!((one.status, two.status), (Some(1), Some(0)));
+    assert_eq!((one.status, two.status), (1, 0));
     let told = |outcome: &Outcome| {
         let events = outcome.events().into_iter();
         let of_other = events.filter(|event| event["shot"] == "other.toml");
@@ -57,13 +58,13 @@ fn machines_deal_alike_though_one_cannot_read_a_folder() {
 
 #[test]
 fn a_shard_without_frames_says_so_and_one_out_of_range_is_refused() {
-    let desk = Desk::new();
+    let desk = passing();
     let outcome = desk.done("render passing.toml --frames 1-2 --shard 3/3");
     let warning = "warning: no frame falls to shard 3/3: there are fewer traces than shards\n";
     assert_eq!(outcome.stderr, warning);
     for shard in ["0/3", "4/3", "1", "a/b"] {
         let outcome = desk.call(&format!("render passing.toml --shard {shard}"));
-        assert_eq!(outcome.status, Some(2));
+        assert_eq!(outcome.status, 2);
         assert!(outcome.stderr.contains("write K/N"), "{}", outcome.stderr);
     }
 }

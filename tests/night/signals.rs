@@ -1,7 +1,8 @@
 //! Stopped by a signal.
 #![cfg(unix)]
 
-use super::desk::{Desk, Outcome, PASSING};
+use super::desk::{PASSING, passing};
+use crate::common::desk::{Desk, Outcome};
 use std::io::{BufRead, BufReader, Read};
 use std::process::{Child, Command};
 use std::time::{Duration, Instant};
@@ -20,7 +21,7 @@ fn signal(child: &Child, name: &str) {
 #[test]
 fn a_signal_in_mid_frame_ends_the_run_in_two_seconds_and_the_next_goes_on() {
     for (name, status) in [("-TERM", 143), ("-INT", 130)] {
-        let desk = Desk::new();
+        let desk = passing();
         let slow = PASSING
             .replace("samples = 4", "samples = 300")
             .replace("frames = 20", "frames = 8");
@@ -94,7 +95,7 @@ fn stuck(desk: &Desk) -> Child {
 
 #[test]
 fn a_run_that_cannot_stop_is_ended_in_two_seconds() {
-    let desk = Desk::new();
+    let desk = passing();
     let mut child = stuck(&desk);
     let begun = Instant::now();
     signal(&child, "-TERM");
@@ -106,7 +107,7 @@ fn a_run_that_cannot_stop_is_ended_in_two_seconds() {
 
 #[test]
 fn a_second_signal_ends_the_run_at_once() {
-    let desk = Desk::new();
+    let desk = passing();
     let mut child = stuck(&desk);
     let begun = Instant::now();
     signal(&child, "-INT");
@@ -119,7 +120,7 @@ fn a_second_signal_ends_the_run_at_once() {
 
 #[test]
 fn an_interrupt_that_the_caller_ignores_stays_ignored() {
-    let desk = Desk::new();
+    let desk = passing();
     desk.write(
         "passing.toml",
         &PASSING.replace("samples = 4", "samples = 60"),
@@ -132,6 +133,6 @@ fn an_interrupt_that_the_caller_ignores_stays_ignored() {
     let outcome: Outcome = desk.shell(line);
     let ended = std::fs::read_to_string(desk.path("ended")).unwrap();
     assert_eq!(ended, "0\n", "the signal came after the end");
-    assert_eq!(outcome.status, Some(0), "{}", outcome.stderr);
+    assert_eq!(outcome.status, 0, "{}", outcome.stderr);
     assert_eq!(outcome.frames("rendered").len(), 20);
 }

@@ -17,7 +17,7 @@ fn of<'a>(plate: &'a Thumbnail, material: &str) -> Vec<Pixel<'a>> {
 fn plate_1_distorts_without_color_change() {
     let moving = Thumbnail::plate(1);
     let still = Thumbnail::new("lattice", 1);
-    for plate in [&moving, &still] {
+    for plate in [moving, &still] {
         let red: Vec<_> = of(plate, "red")
             .into_iter()
             .filter(|p| p.value() > VISIBLE)
@@ -57,7 +57,7 @@ fn plate_1_distorts_without_color_change() {
             };
             [reach(0), reach(1)]
         };
-        let (a, b) = (chromaticity(&moving), chromaticity(&still));
+        let (a, b) = (chromaticity(moving), chromaticity(&still));
         for ((a0, a1), (b0, b1)) in a.into_iter().zip(b) {
             assert!(a1.max(b1) - a0.min(b0) < 1e-6, "{material}");
         }
@@ -65,7 +65,7 @@ fn plate_1_distorts_without_color_change() {
     let seen = |plate: &Thumbnail, x, y| plate.pixel(x, y).map_or("", |p| p.material).to_owned();
     let places = (0..90).flat_map(|y| (0..160).map(move |x| (x, y)));
     let differing = places
-        .filter(|&(x, y)| seen(&moving, x, y) != seen(&still, x, y))
+        .filter(|&(x, y)| seen(moving, x, y) != seen(&still, x, y))
         .count();
     // 5930 of 14400.
     assert!(differing > 14400 / 4);
@@ -74,7 +74,7 @@ fn plate_1_distorts_without_color_change() {
 #[test]
 fn plate_2_bars_are_orange_at_the_edge_yellow_to_white_in_the_middle() {
     let plate = Thumbnail::plate(2);
-    let bars = of(&plate, "grey");
+    let bars = of(plate, "grey");
     let between = |from: f64, to: f64| -> Vec<Pixel<'_>> {
         bars.iter()
             .copied()

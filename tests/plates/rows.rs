@@ -14,7 +14,7 @@ fn doppler(degrees: f64) -> f64 {
 }
 
 /// Plates 8 to 12.
-fn moving() -> [Thumbnail; 5] {
+fn moving() -> [&'static Thumbnail; 5] {
     [8, 9, 10, 11, 12].map(Thumbnail::plate)
 }
 
@@ -131,7 +131,7 @@ fn plate_8_goes_from_blue_to_black_towards_the_right() {
 fn plate_8_packs_the_rows_closer_than_plate_7() {
     // The rows' far ends at rest are 3° off the motion at the most, aberration carries them to 1.5°.
     let right = |plate: &Thumbnail| plate.covered().iter().filter(|p| p.x >= 150).count();
-    let (moving, still) = (right(&Thumbnail::plate(8)), right(&Thumbnail::plate(7)));
+    let (moving, still) = (right(Thumbnail::plate(8)), right(Thumbnail::plate(7)));
     // 6 pixels against none.
     assert!(moving > still);
 }
@@ -168,7 +168,7 @@ fn plates_9_to_11_glow_spreads_from_the_approaching_side_until_plate_11_washes_o
     );
     assert!(spread[2][0] > 0.8, "all glows in plate 11");
     let pale = |plate: &Thumbnail| share(&plate.pure(), |p| p.saturation() < 0.4);
-    let washed = [&cold, &plates[0], &plates[1], &plates[2]].map(pale);
+    let washed = [cold, plates[0], plates[1], plates[2]].map(pale);
     assert!(
         washed.windows(2).all(|pair| pair[0] < pair[1]),
         "{washed:?}"
@@ -180,7 +180,7 @@ fn plates_9_to_11_glow_spreads_from_the_approaching_side_until_plate_11_washes_o
     });
     // 0.976.
     assert!(white > 0.95, "the right is white, {white}");
-    let left = [&plates[0], &plates[1], &plates[2]].map(|hot| surface(&cold, hot));
+    let left = [plates[0], plates[1], plates[2]].map(|hot| surface(cold, hot));
     // 0.74, 0.56, 0.18.
     assert!(left[0] > left[1] && left[1] > left[2], "{left:?}");
 }
@@ -206,12 +206,12 @@ fn plate_12_shows_surface_color_again() {
             Pixel::saturation,
         )
     };
-    let [before, without, again] = [&cold, &washed, &hot].map(colorful);
+    let [before, without, again] = [cold, washed, hot].map(colorful);
     assert!(
         before > 0.95 && again > 1.5 * without,
         "{before} {without} {again}"
     );
-    let [without, again] = [&washed, &hot].map(|hot| surface(&cold, hot));
+    let [without, again] = [washed, hot].map(|hot| surface(cold, hot));
     // 0.18 and 0.33.
     assert!(without < 0.25 && again > 1.5 * without, "{without} {again}");
     // And it is the surface's: the hue of plate 8 at the same place.

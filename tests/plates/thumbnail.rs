@@ -9,6 +9,7 @@ use restframe::render::{Options, View, render, rows, spliced};
 use restframe::scene::Scene;
 use restframe::trace::Stage;
 use std::path::Path;
+use std::sync::OnceLock;
 
 /// Pixels in a row.
 pub(crate) const WIDTH: u32 = 160;
@@ -91,14 +92,17 @@ impl Thumbnail {
         let scene = Scene::resolve(shot, &prepared.library, frame, None).unwrap();
         let stage = Stage::build(&scene.geometry, None);
         let (mut probes, mut directions) = (Vec::new(), Vec::new());
+        let effects = |y| {
+            let mut splices = shot.splice.iter().rev();
+            let splice = splices.find(|s| rows(s, HEIGHT).contains(&y));
+            splice.map_or(shot.effects, |splice| spliced(&shot.effects, splice))
+        };
+        let under = |effects| View::new(shot, frame, &effects, &scene, &stage).unwrap();
+        let mut view = under(effects(0));
         for y in 0..HEIGHT {
-            let splice = shot
-                .splice
-                .iter()
-                .rev()
-                .find(|s| rows(s, HEIGHT).contains(&y));
-            let effects = splice.map_or(shot.effects, |splice| spliced(&shot.effects, splice));
-            let view = View::new(shot, frame, &effects, &scene, &stage).unwrap();
+            if y > 0 && effects(y) != effects(y - 1) {
+                view = under(effects(y));
+            }
             for x in 0..WIDTH {
                 probes.push(probe(shot, frame, [x, y], &view, &scene, exposure));
                 let point = [
@@ -117,9 +121,10 @@ impl Thumbnail {
         }
     }
 
-    /// The only frame of a plate.
-    pub(crate) fn plate(number: u32) -> Self {
-        Self::new(&format!("plate-{number:02}"), 1)
+    /// The only frame of a plate, made once for all tests.
+    pub(crate) fn plate(number: usize) -> &'static Self {
+        static PLATES: [OnceLock<Thumbnail>; 13] = [const { OnceLock::new() }; 13];
+        PLATES[number].get_or_init(|| Self::new(&format!("plate-{number:02}"), 1))
     }
 
     /// The pixel at (x, y), if it sees a surface.

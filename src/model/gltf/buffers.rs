@@ -3,9 +3,18 @@
 
 use crate::model::ModelError;
 use crate::shot::ModelFiles;
-use ::gltf::json::Buffer;
+use base64::Engine;
+use base64::alphabet::STANDARD;
+use base64::engine::{DecodePaddingMode, GeneralPurpose, GeneralPurposeConfig};
+use gltf_json::Buffer;
 use std::borrow::Cow;
 use std::cell::{OnceCell, RefCell};
+
+/// Base64 with its padding or without.
+const BASE64: GeneralPurpose = GeneralPurpose::new(
+    &STANDARD,
+    GeneralPurposeConfig::new().with_decode_padding_mode(DecodePaddingMode::Indifferent),
+);
 
 /// The buffers of a file, by their index.
 pub(super) struct Buffers<'a> {
@@ -93,5 +102,6 @@ fn from_uri(uri: &str, files: &mut ModelFiles, at: &str) -> Result<Vec<u8>, Mode
     // Blanks and line breaks do not count (RFC 2045, section 6.8).
     let mut letters = bytes;
     letters.retain(|byte| !byte.is_ascii_whitespace());
-    base64::decode(letters).map_err(|_| broken("that is not valid base64"))
+    let bytes = BASE64.decode(letters);
+    bytes.map_err(|_| broken("that is not valid base64"))
 }

@@ -1,6 +1,7 @@
 //! A frame's small picture, as a text that stands in the page.
 
 use crate::sequence::frame_image::FrameImage;
+use base64::prelude::{BASE64_STANDARD, Engine};
 use image::codecs::jpeg::JpegEncoder;
 use image::imageops::thumbnail;
 use image::{ExtendedColorType, RgbImage};
@@ -29,7 +30,7 @@ pub(super) fn small(image: FrameImage, frames: u32) -> Option<Thumbnail> {
     // Base64 has 4 characters for 3 bytes.
     let most = BUDGET / 4 * 3 / frames.max(1) as usize;
     let jpeg = fitting(&image, most)?;
-    let url = format!("data:image/jpeg;base64,{}", base64::encode(jpeg));
+    let url = format!("data:image/jpeg;base64,{}", BASE64_STANDARD.encode(jpeg));
     Some(Thumbnail { size, url })
 }
 
@@ -94,7 +95,7 @@ mod tests {
             let thumbnail = small(noise(width, height), 1000).expect("a picture");
             assert_eq!(thumbnail.size, [width, height]);
             let text = thumbnail.url.split_once(',').expect("a data URL").1;
-            let bytes = base64::decode(text).expect("base64");
+            let bytes = BASE64_STANDARD.decode(text).expect("base64");
             image::load_from_memory(&bytes).expect("a JPEG");
         }
     }
