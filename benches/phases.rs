@@ -7,13 +7,13 @@ mod read;
 
 use divan::{Bencher, black_box, counter::ItemsCount};
 use read::read;
+use restframe::accel::Aggregate;
 use restframe::film::{Development, Film, develop};
 use restframe::image::exr::{self, Depth};
 use restframe::image::{Metadata, png};
 use restframe::render::Prepared;
 use restframe::render::{Options, development, render};
 use restframe::scene::Scene;
-use restframe::trace::Stage;
 use std::path::Path;
 
 fn main() {
@@ -60,7 +60,7 @@ impl Picture {
         });
     }
 
-    fn read(&self) -> (Prepared, Scene, Stage) {
+    fn read(&self) -> (Prepared, Scene, Aggregate) {
         let sphere = Path::new(env!("CARGO_MANIFEST_DIR")).join("assets/sphere.obj");
         let sphere = sphere.to_str().expect("a path in UTF-8");
         let scene = self.scene.replace("SPHERE", sphere);

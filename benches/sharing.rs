@@ -7,13 +7,14 @@ mod shell;
 
 use divan::Bencher;
 use rayon::prelude::*;
+use restframe::accel::Aggregate;
 use restframe::film::Film;
 use restframe::render::Prepared;
 use restframe::render::{
     Member, Options, PictureInfo, Watch, encode, film_bytes, render, render_together,
 };
 use restframe::scene::Scene;
-use restframe::trace::Stage;
+use restframe::trace::build_aggregate;
 use shell::shell;
 use std::path::Path;
 use std::sync::atomic::AtomicBool;
@@ -30,7 +31,7 @@ fn main() {
 struct Images {
     prepared: Prepared,
     scene: Scene,
-    stage: Stage,
+    stage: Aggregate,
     options: Options,
     pool: rayon::ThreadPool,
 }
@@ -86,7 +87,7 @@ impl Images {
 fn films(
     pool: &rayon::ThreadPool,
     members: &[Member<'_>],
-    stage: &Stage,
+    stage: &Aggregate,
     options: &Options,
 ) -> Vec<Film> {
     let stop = &AtomicBool::new(false);
@@ -157,7 +158,7 @@ fn time_ramp(frames: u32) {
         Scene::resolve(&shot, &library, frame, earlier).expect("it resolves")
     };
     let first = resolve(1, None);
-    let stage = Stage::build(&first.geometry, None);
+    let stage = build_aggregate(&first.geometry, None);
     let encode = |frame, scene: &Scene, film: &Film| {
         let taken = PictureInfo {
             exposure_stops: -9.3,

@@ -4,9 +4,10 @@
 mod shell;
 
 use divan::{Bencher, black_box};
+use restframe::accel::Hit;
 use restframe::plan;
 use restframe::shade::{Settings, ShadeScratch, Shader};
-use restframe::trace::{BodyHit, DirectLight, Node, Root, Seen, ShadeTrees, Surface};
+use restframe::trace::{DirectLight, Node, Root, Seen, ShadeTrees, Surface};
 use shell::shell;
 
 fn main() {
@@ -44,7 +45,7 @@ fn shade(bencher: Bencher<'_, '_>, effects: &str, accuracy: &str, lamp_doppler: 
         lamp_reach: 1.0,
     };
     let shader = Shader::new(&scene, &settings);
-    let hit = BodyHit {
+    let hit = Hit {
         t: 1.0,
         instance: 0,
         triangle: 0,

@@ -2,12 +2,13 @@
 //! cuts change nothing.
 use crate::common::WALL;
 use base64::prelude::{BASE64_STANDARD, Engine};
+use restframe::accel::Aggregate;
 use restframe::film::{Film, SILENT};
 use restframe::probe::{Probe, probe};
 use restframe::render::Prepared;
 use restframe::render::{Enough, Member, Options, View, enough_bounces, render, rows, spliced};
 use restframe::scene::Scene;
-use restframe::trace::Stage;
+use restframe::trace::build_aggregate;
 use std::path::Path;
 
 /// What a pixel of a 9 x 9 image sees; `text` is the rest of the shot.
@@ -28,7 +29,7 @@ fn sees(text: &str, pixel: [u32; 2]) -> Probe {
     let prepared = Prepared::read(&path).unwrap();
     let shot = &prepared.shot;
     let scene = Scene::resolve(shot, &prepared.library, 1, None).unwrap();
-    let stage = Stage::build(&scene.geometry, None);
+    let stage = build_aggregate(&scene.geometry, None);
     let splice = shot.splice.iter().find(|s| rows(s, 9).contains(&pixel[1]));
     let effects = splice.map_or(shot.effects, |splice| spliced(&shot.effects, splice));
     let view = View::new(shot, 1, &effects, &scene, &stage).unwrap();
@@ -114,7 +115,7 @@ fn what_is_left_out_is_what_the_answer_says() {
 }
 
 /// A film of [`furnace`] and the member it is of, handed to `look`.
-fn film_of<T>(bounces: u32, look: impl FnOnce(Member<'_>, &Stage, &Film) -> T) -> T {
+fn film_of<T>(bounces: u32, look: impl FnOnce(Member<'_>, &Aggregate, &Film) -> T) -> T {
     let folder = tempfile::tempdir().unwrap();
     let assets = Path::new(env!("CARGO_MANIFEST_DIR")).join("assets");
     std::fs::copy(assets.join("sphere.obj"), folder.path().join("ball.obj")).unwrap();
@@ -124,7 +125,7 @@ fn film_of<T>(bounces: u32, look: impl FnOnce(Member<'_>, &Stage, &Film) -> T) -
     let prepared = Prepared::read(&path).unwrap();
     let shot = &prepared.shot;
     let scene = Scene::resolve(shot, &prepared.library, 1, None).unwrap();
-    let stage = Stage::build(&scene.geometry, None);
+    let stage = build_aggregate(&scene.geometry, None);
     let options = Options {
         width: 96,
         height: 96,

@@ -5,7 +5,7 @@ use restframe::render::Prepared;
 use restframe::render::View;
 use restframe::scene::{Library, Scene};
 use restframe::shot::parse;
-use restframe::trace::Stage;
+use restframe::trace::build_aggregate;
 use std::path::{Path, PathBuf};
 
 const BETA: f64 = 0.9;
@@ -49,7 +49,7 @@ fn with(lines: &[(&str, &str)]) -> Prepared {
 fn probes(prepared: &Prepared, frame: u32, pixels: &[[u32; 2]]) -> Vec<Probe> {
     let shot = &prepared.shot;
     let scene = Scene::resolve(shot, &prepared.library, frame, None).unwrap();
-    let stage = Stage::build(&scene.geometry, None);
+    let stage = build_aggregate(&scene.geometry, None);
     let view = View::new(shot, frame, &shot.effects, &scene, &stage).unwrap();
     let look = |pixel: &[u32; 2]| probe(shot, frame, *pixel, &view, &scene, 0.0);
     pixels.iter().map(look).collect()

@@ -13,7 +13,7 @@ use restframe::probe::{Probe, probe};
 use restframe::render::Prepared;
 use restframe::render::View;
 use restframe::scene::Scene;
-use restframe::trace::Stage;
+use restframe::trace::build_aggregate;
 use std::path::{Path, PathBuf};
 
 /// Of D, relative.
@@ -56,7 +56,7 @@ fn probes() -> Vec<Probe> {
     (1..=shot.shot.frames)
         .map(|frame| {
             let scene = Scene::resolve(shot, &prepared.library, frame, None).unwrap();
-            let stage = Stage::build(&scene.geometry, None);
+            let stage = build_aggregate(&scene.geometry, None);
             let view = View::new(shot, frame, &shot.effects, &scene, &stage).unwrap();
             probe(shot, frame, [0, 0], &view, &scene, 0.0)
         })

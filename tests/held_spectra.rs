@@ -1,6 +1,7 @@
 //! Lines and three numbers against the curves they stand for: where they agree, where they cannot,
 //! and how the error of lines falls with their spacing.
 use glam::DVec3;
+use restframe::accel::Hit;
 use restframe::color::cie;
 use restframe::plan;
 use restframe::render::Prepared;
@@ -10,7 +11,7 @@ use restframe::shade::{Settings, ShadeScratch, Shader};
 use restframe::shot::{self, Beaming, SensorColor, Shot, Spectra, Switch};
 use restframe::spectrum::planck;
 use restframe::spectrum::uplift::HUE_ERROR;
-use restframe::trace::{BodyHit, Branch, DirectLight, Node, Root, Seen, ShadeTrees, Surface};
+use restframe::trace::{Branch, DirectLight, Node, Root, Seen, ShadeTrees, Surface};
 use std::path::Path;
 use std::sync::Arc;
 
@@ -203,7 +204,7 @@ fn seen(scene: &Scene, end: End, lamps: usize) -> Seen {
         return Seen::Sky(DVec3::NEG_Z);
     };
     let material = scene.materials.iter().position(|m| m.name == name).unwrap();
-    let hit = BodyHit {
+    let hit = Hit {
         t: 1.0,
         instance: 0,
         triangle: 0,

@@ -14,7 +14,7 @@ const ROOMS: &[&[&str]] = &[
     &["spectrum", "film"],
     &["shot", "image"],
     &["model", "plan"],
-    &["scene"],
+    &["accel", "scene"],
     &["trace"],
     &["shade"],
     &["render"],
@@ -248,7 +248,7 @@ fn an_import_from_further_down_is_found_however_it_is_written() {
     }
     let deep = faults_of(
         "scene/model/obj.rs",
-        "//! A file.\nuse super::super::super::trace::Stage;",
+        "//! A file.\nuse super::super::super::trace::Tracer;",
     );
     assert_eq!(
         deep,
@@ -283,7 +283,7 @@ fn a_circle_between_two_rooms_is_found() {
     let file = |path: &str, text: &str| (path.to_owned(), format!("//! A room.\n{text}"));
     let circle = [
         file("trace/mod.rs", "use crate::shade::Shader;"),
-        file("shade/mod.rs", "use crate::trace::Stage;"),
+        file("shade/mod.rs", "use crate::trace::Tracer;"),
     ];
     assert!(
         faults(&circle).contains(

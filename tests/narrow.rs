@@ -1,5 +1,6 @@
 //! Curves that are narrower than the wavelengths are apart keep their light, whatever meets them
 //! and under any shift: against `accuracy.spectra = "exact"`, and in closed form.
+use restframe::accel::Hit;
 use restframe::color::cie::{EFFICACY, xyz_bar};
 use restframe::plan;
 use restframe::scene::{
@@ -8,7 +9,7 @@ use restframe::scene::{
 use restframe::shade::{Settings, ShadeScratch, Shader};
 use restframe::shot::{self, Accuracy, Shot, Spectra};
 use restframe::spectrum::{Beyond, Cardinal, Sampled, Spectrum, illuminant};
-use restframe::trace::{BodyHit, Branch, DirectLight, Node, Root, Seen, ShadeTrees, Surface};
+use restframe::trace::{Branch, DirectLight, Node, Root, Seen, ShadeTrees, Surface};
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
@@ -190,7 +191,7 @@ impl Wall {
                 material: self.number(material),
                 s: 1.0,
                 time: 0.0,
-                hit: BodyHit {
+                hit: Hit {
                     t: 1.0,
                     instance: 0,
                     triangle: 0,

@@ -13,7 +13,7 @@ use restframe::render::View;
 use restframe::scene::Scene;
 use restframe::shade::ShadeScratch;
 use restframe::shot::Spectra;
-use restframe::trace::{Scratch, ShadeTrees, Stage};
+use restframe::trace::{Scratch, ShadeTrees, build_aggregate};
 use serde::Deserialize;
 
 /// Of D, relative.
@@ -116,7 +116,7 @@ fn answer(prepared: &Prepared, frame: u32, pixel: [u32; 2]) -> (Probe, [f64; 3])
 fn answers(prepared: &Prepared, frame: u32, pixels: &[[u32; 2]]) -> Vec<(Probe, [f64; 3])> {
     let shot = &prepared.shot;
     let scene = Scene::resolve(shot, &prepared.library, frame, None).unwrap();
-    let stage = Stage::build(&scene.geometry, None);
+    let stage = build_aggregate(&scene.geometry, None);
     let view = View::new(shot, frame, &shot.effects, &scene, &stage).unwrap();
     let stops = prepared
         .exposure()

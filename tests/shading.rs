@@ -1,10 +1,11 @@
 //! The short cut agrees with the long way: XYZ by tables and kernels against the sum over the
 //! spectral radiance of the same ray.
+use restframe::accel::Hit;
 use restframe::plan;
 use restframe::scene::{Library, Scene};
 use restframe::shade::{Settings, ShadeScratch, Shader};
 use restframe::shot::{self, SensorColor, Shot, Spectra};
-use restframe::trace::{BodyHit, DirectLight, Node, Root, Seen, ShadeTrees, Surface};
+use restframe::trace::{DirectLight, Node, Root, Seen, ShadeTrees, Surface};
 use std::path::Path;
 
 /// One material of every kind, three lamps; the wall moves, so every effect is called for.
@@ -107,7 +108,7 @@ fn trees(doppler: f64, lamp_doppler: f64) -> ShadeTrees {
         doppler: lamp_doppler,
         first_weight: 2 * light,
     };
-    let hit = BodyHit {
+    let hit = Hit {
         t: 1.0,
         instance: 0,
         triangle: 0,

@@ -5,7 +5,7 @@
 use restframe::render::Prepared;
 use restframe::render::{Member, Options, View, Watch, film_bytes, render_together};
 use restframe::scene::Scene;
-use restframe::trace::Stage;
+use restframe::trace::build_aggregate;
 use std::path::Path;
 use std::process::Command;
 use std::sync::atomic::AtomicBool;
@@ -45,7 +45,7 @@ fn prepared(text: &str) -> Prepared {
 /// Greatest memory of rendering so many images at once, bytes (proc(5): `clear_refs`, `VmHWM`).
 fn peak(count: usize, prepared: &Prepared, options: &Options) -> u64 {
     let scene = Scene::resolve(&prepared.shot, &prepared.library, 1, None).unwrap();
-    let stage = Stage::build(&scene.geometry, None);
+    let stage = build_aggregate(&scene.geometry, None);
     let member = Member {
         shot: &prepared.shot,
         frame: 1,
@@ -75,7 +75,7 @@ fn peak(count: usize, prepared: &Prepared, options: &Options) -> u64 {
 /// Bytes of the shader of an image.
 fn shader(prepared: &Prepared) -> u64 {
     let scene = Scene::resolve(&prepared.shot, &prepared.library, 1, None).unwrap();
-    let stage = Stage::build(&scene.geometry, None);
+    let stage = build_aggregate(&scene.geometry, None);
     let shot = &prepared.shot;
     let view = View::new(shot, 1, &shot.effects, &scene, &stage).unwrap();
     view.shader().bytes() as u64

@@ -3,12 +3,13 @@
 mod together;
 mod watched;
 
+use restframe::accel::Aggregate;
 use restframe::film::Film;
 use restframe::render::Prepared;
 use restframe::render::{Member, Options, Together, TogetherError, Watch, render, render_together};
 use restframe::scene::Scene;
 use restframe::shot::Layer;
-use restframe::trace::Stage;
+use restframe::trace::build_aggregate;
 use std::path::Path;
 use std::sync::atomic::AtomicBool;
 
@@ -116,9 +117,9 @@ fn prepared(changes: &[Changes<'_>]) -> Prepared {
 }
 
 /// Frame 1 of a shot, and its bodies.
-fn scene(prepared: &Prepared) -> (Scene, Stage) {
+fn scene(prepared: &Prepared) -> (Scene, Aggregate) {
     let scene = Scene::resolve(&prepared.shot, &prepared.library, 1, None).unwrap();
-    let stage = Stage::build(&scene.geometry, None);
+    let stage = build_aggregate(&scene.geometry, None);
     (scene, stage)
 }
 
@@ -161,7 +162,7 @@ fn options(samples: u32) -> Options {
 fn together(
     threads: usize,
     members: &[Member<'_>],
-    stage: &Stage,
+    stage: &Aggregate,
     options: &Options,
 ) -> Result<Together, TogetherError> {
     let pool = rayon::ThreadPoolBuilder::new()

@@ -16,7 +16,7 @@ use restframe::render::Prepared;
 use restframe::render::{Options, View, render};
 use restframe::scene::Scene;
 use restframe::shade::{Settings, ShadeScratch, Shader};
-use restframe::trace::{Node, Root, Scratch, Seen, ShadeTrees, Stage};
+use restframe::trace::{Node, Root, Scratch, Seen, ShadeTrees, build_aggregate};
 use std::path::PathBuf;
 
 /// A folder with a model far off and whatever files a sky needs.
@@ -62,7 +62,7 @@ impl Folder {
         let prepared = self.shot(1, rest).unwrap_or_else(|m| panic!("{m}"));
         let shot = &prepared.shot;
         let scene = Scene::resolve(shot, &prepared.library, 1, None).unwrap();
-        let stage = Stage::build(&scene.geometry, None);
+        let stage = build_aggregate(&scene.geometry, None);
         let view = View::new(shot, 1, &shot.effects, &scene, &stage).unwrap();
         let mut trees = ShadeTrees::default();
         let direction = scene.camera.looks_along([0.5, 0.5]).unwrap();
@@ -77,7 +77,7 @@ impl Folder {
     fn film(&self, size: u32, rest: &str) -> Film {
         let prepared = self.shot(size, rest).unwrap_or_else(|m| panic!("{m}"));
         let scene = Scene::resolve(&prepared.shot, &prepared.library, 1, None).unwrap();
-        let stage = Stage::build(&scene.geometry, None);
+        let stage = build_aggregate(&scene.geometry, None);
         let options = Options {
             width: size,
             height: size,

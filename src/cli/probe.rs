@@ -7,7 +7,7 @@ use crate::render::{Prepared, View, motion_mistake};
 use crate::scene::Scene;
 use crate::shot::SensorColor;
 use crate::store::{Names, write_atomically};
-use crate::trace::Stage;
+use crate::trace::build_aggregate;
 use std::path::Path;
 
 /// The page of a plot: two panels side by side, fit for a page of text.
@@ -45,7 +45,7 @@ pub(super) fn run(arguments: &ProbeArguments) -> Result<(), Failed> {
     }
     let (exposing, _) = prepared.exposure().map_err(|m| mistaken(&m))?;
     let scene = Scene::resolve(shot, &prepared.library, frame, None).map_err(|m| mistaken(&m))?;
-    let stage = Stage::with_precision(&scene.geometry, None, shot.accuracy.tracing);
+    let stage = build_aggregate(&scene.geometry, None);
     let effects = effects_at(shot, pixel[1]);
     let view = View::new(shot, frame, &effects, &scene, &stage)
         .map_err(|error| mistaken(&motion_mistake(shot, &error)))?;

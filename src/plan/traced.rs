@@ -125,7 +125,6 @@ impl Traced<'_> {
             spectra: _,
             wavelengths: _,
             line_spacing: _,
-            tracing,
             cutoff,
         } = still.accuracy;
         let Clock {
@@ -156,7 +155,7 @@ impl Traced<'_> {
             Section::Sky => self.sky(&still.background),
             Section::Effects => json!([geometry, shadows, bounces]),
             Section::Splices => still.splice.iter().map(splice).collect(),
-            Section::Accuracy => json!([tracing, cutoff]),
+            Section::Accuracy => json!([cutoff]),
         };
         list.to_string()
     }

@@ -11,6 +11,7 @@
 
 use super::plot::{SPACING, SURFACE, THERMAL_LIGHT, UNIT, curve, digits, peak, visible};
 use super::{effects_at, look};
+use crate::accel::Aggregate;
 use crate::color::cie;
 use crate::film::Channels;
 use crate::plan::MotionError;
@@ -19,7 +20,7 @@ use crate::render::{self, Member, View};
 use crate::scene::{Scene, Thermal};
 use crate::shade::Radiance;
 use crate::shot::{Effects, Sensor, Shot};
-use crate::trace::{Seen, ShadeTrees, Stage};
+use crate::trace::{Seen, ShadeTrees};
 
 /// Grey, so that it is told from the others without seeing colours.
 const SUM: Color = [165, 165, 165];
@@ -34,7 +35,7 @@ const MOST: f64 = 8192.0;
 /// too small to be read. Exposure is in stops.
 pub fn insets(
     member: Member<'_>,
-    stage: &Stage,
+    stage: &Aggregate,
     exposure: f64,
     size: [u32; 2],
 ) -> Result<Vec<Option<Plot>>, MotionError> {

@@ -5,6 +5,7 @@ use super::cost::{Costs, frame_effects};
 use super::memory::check_memory;
 use super::settings::{Force, Output};
 use super::shard::Shard;
+use crate::accel::Aggregate;
 use crate::plan::{FrameKey, Trace};
 use crate::progress::{FrameOutcome, Progress};
 use crate::render::{Exposing, Options, Prepared};
@@ -14,7 +15,6 @@ use crate::store::{
     FileStamps, FolderError, Found, ManifestWriter, ShotFolder, Status, check_writable,
     refuse_link, sweep,
 };
-use crate::trace::Stage;
 use rayon::prelude::*;
 use std::collections::{BTreeMap, HashMap};
 use std::io;
@@ -36,7 +36,7 @@ pub struct Job {
     pub(super) manifest: Option<ManifestWriter>,
     pub(super) exposing: Option<Exposing>,
     /// Trees to be taken over by the next image.
-    pub(super) kept: Option<(Scene, Stage)>,
+    pub(super) kept: Option<(Scene, Aggregate)>,
     /// Whether it has been handed out as finished.
     pub(super) is_reported: bool,
 }

@@ -4,6 +4,7 @@ use super::batch::ClaimedFrame;
 use super::job::Job;
 use super::memory::{TooLarge, check_memory};
 use super::settings::Settings;
+use crate::accel::Aggregate;
 use crate::film::{Film, SILENT};
 use crate::plan::{self, MotionError};
 use crate::plot::Plot;
@@ -14,8 +15,8 @@ use crate::render::{
     render_together,
 };
 use crate::scene::Scene;
-use crate::shot::{Mistakes, Shot};
-use crate::trace::Stage;
+use crate::shot::Mistakes;
+use crate::trace::build_aggregate;
 use rayon::prelude::*;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -27,7 +28,7 @@ pub(super) struct RenderedBatch {
     pub(super) first: usize,
     /// One for each frame.
     pub(super) scenes: Vec<Scene>,
-    pub(super) stage: Stage,
+    pub(super) stage: Aggregate,
     pub(super) together: Together,
     /// What pictures show beside the films, one for each frame; None where the run was stopped
     /// before.
@@ -78,7 +79,7 @@ pub(super) fn render(
     let kept = jobs[first].kept.take();
     let scenes = scenes(jobs, batch, kept.as_ref().map(|(scene, _)| scene))?;
     let jobs = &*jobs;
-    let stage = stage(kept, &scenes[0], jobs[first].folder.shot());
+    let stage = stage(kept, &scenes[0]);
     let prepare = begun.elapsed().as_secs_f64();
     let member = |(claimed, scene)| {
         let ClaimedFrame { task, .. }: &ClaimedFrame = claimed;
@@ -121,7 +122,7 @@ pub(super) fn render(
 /// Looks up what a picture shows beside its film; None if that takes time and the run is stopped.
 fn probe(
     member: Member<'_>,
-    stage: &Stage,
+    stage: &Aggregate,
     film: &Film,
     exposure: f64,
     stop: &AtomicBool,
@@ -187,14 +188,13 @@ fn scenes(
 }
 
 /// Bodies taken over from the last image where they stand as they stood, trees where they can be.
-fn stage(kept: Option<(Scene, Stage)>, scene: &Scene, shot: &Shot) -> Stage {
+fn stage(kept: Option<(Scene, Aggregate)>, scene: &Scene) -> Aggregate {
     match kept {
         Some((old, stage)) if Arc::ptr_eq(&old.geometry, &scene.geometry) => stage,
-        other => Stage::with_precision(
-            &scene.geometry,
-            other.as_ref().map(|(_, stage)| stage),
-            shot.accuracy.tracing,
-        ),
+        other => {
+            let earlier = other.as_ref().map(|(_, stage)| stage);
+            build_aggregate(&scene.geometry, earlier)
+        }
     }
 }
 

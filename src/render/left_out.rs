@@ -2,11 +2,12 @@
 
 use super::view::{Standings, Views};
 use super::{Member, View, channels};
+use crate::accel::Aggregate;
 use crate::film::{Channels, Film, LeftOut, SILENT};
 use crate::plan::MotionError;
 use crate::shade::ShadeScratch;
 use crate::shot::MOST_BOUNCES;
-use crate::trace::{Root, Scratch, ShadeTrees, Stage, Tracer};
+use crate::trace::{Root, Scratch, ShadeTrees, Tracer};
 use rayon::prelude::*;
 
 /// Rays on a side of the sample that deeper images are judged by; and of a second one, where nothing
@@ -32,7 +33,7 @@ pub enum Enough {
 /// Where a worldline has no velocity in this frame.
 pub fn enough_bounces(
     member: Member<'_>,
-    stage: &Stage,
+    stage: &Aggregate,
     size: [u32; 2],
     left_out: &LeftOut,
 ) -> Result<Enough, MotionError> {
@@ -55,7 +56,7 @@ pub fn enough_bounces(
 }
 
 /// How much of an image's light was not followed, and how many bounces would do; None if it is little.
-pub fn left_out_warning(member: Member<'_>, stage: &Stage, film: &Film) -> Option<String> {
+pub fn left_out_warning(member: Member<'_>, stage: &Aggregate, film: &Film) -> Option<String> {
     let share = film.left_out.share();
     if share <= SILENT {
         return None;

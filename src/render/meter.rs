@@ -1,11 +1,12 @@
 //! Exposure metered on a small render of frame 1.
 
 use super::{Options, render};
+use crate::accel::Aggregate;
 use crate::film::auto_exposure;
 use crate::plan::MotionError;
 use crate::scene::{Library, Scene};
 use crate::shot::{LARGEST_SIDE, Mistakes, Shot};
-use crate::trace::Stage;
+use crate::trace::build_aggregate;
 
 /// What metering found, and what it built on the way: frame 1, for whoever renders it next.
 pub struct Metered {
@@ -14,7 +15,7 @@ pub struct Metered {
     /// Frame 1.
     pub scene: Scene,
     /// Its bodies.
-    pub stage: Stage,
+    pub stage: Aggregate,
 }
 
 /// Exposure metered on a small render of frame 1, whatever frames are asked for.
@@ -23,7 +24,7 @@ pub struct Metered {
 /// Mistakes of frame 1.
 pub fn metered_exposure(shot: &Shot, library: &Library) -> Result<Metered, Mistakes> {
     let scene = Scene::resolve(shot, library, 1, None)?;
-    let stage = Stage::with_precision(&scene.geometry, None, shot.accuracy.tracing);
+    let stage = build_aggregate(&scene.geometry, None);
     let [width, height] = shot.image.size.map(f64::from);
     let rows = (METER_WIDTH * height / width)
         .round()

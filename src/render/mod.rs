@@ -1,11 +1,11 @@
 //! The renderer on one page: plan, trace, shade, film.
 
+use crate::accel::Aggregate;
 use crate::color::spaces;
 use crate::film::{Channels, Development, Film};
 use crate::plan::MotionError;
 use crate::scene::Scene;
 use crate::shot::{Effects, Layer, SensorColor, Shot, Splice};
-use crate::trace::Stage;
 use std::ops::Range;
 
 mod band;
@@ -53,7 +53,7 @@ pub fn render(
     shot: &Shot,
     frame: u32,
     scene: &Scene,
-    stage: &Stage,
+    stage: &Aggregate,
     options: &Options,
     done: &(dyn Fn(u64) + Sync),
 ) -> Result<Film, MotionError> {
@@ -69,7 +69,7 @@ pub fn render_profiled(
     shot: &Shot,
     frame: u32,
     scene: &Scene,
-    stage: &Stage,
+    stage: &Aggregate,
     options: &Options,
     done: &(dyn Fn(u64) + Sync),
     profile: Option<&Profile>,

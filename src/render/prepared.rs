@@ -2,11 +2,11 @@
 
 use super::metered_exposure;
 use super::shifts::refuse_shifted_numbers;
+use crate::accel::Aggregate;
 use crate::plan;
 use crate::scene::{Library, Scene};
 use crate::shade::{Settings, Unresolved, unresolved};
 use crate::shot::{self, Exposure, Mistakes, Shot};
-use crate::trace::Stage;
 use indexmap::IndexSet;
 use rayon::prelude::*;
 use std::path::Path;
@@ -87,7 +87,7 @@ impl Prepared {
     ///
     /// # Errors
     /// Mistakes of frame 1.
-    pub fn exposure(&self) -> Result<(Exposing, Option<(Scene, Stage)>), Mistakes> {
+    pub fn exposure(&self) -> Result<(Exposing, Option<(Scene, Aggregate)>), Mistakes> {
         match &self.shot.sensor.exposure {
             Exposure::Stops(stops) => Ok((Exposing::Authored(stops.clone()), None)),
             Exposure::Auto(_) => {

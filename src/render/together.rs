@@ -5,11 +5,12 @@ use super::expose::{Stopped, expose};
 use super::profile::Profile;
 use super::view::{Standings, Views};
 use super::{Options, channels};
+use crate::accel::Aggregate;
 use crate::film::Film;
 use crate::plan::MotionError;
 use crate::scene::Scene;
 use crate::shot::Shot;
-use crate::trace::{Samples, Stage};
+use crate::trace::Samples;
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
@@ -79,7 +80,7 @@ impl From<Stopped> for TogetherError {
 /// Where a worldline has no velocity, or when asked to stop.
 pub fn render_together(
     members: &[Member<'_>],
-    stage: &Stage,
+    stage: &Aggregate,
     options: &Options,
     watch: Watch<'_>,
 ) -> Result<Together, TogetherError> {
@@ -89,7 +90,7 @@ pub fn render_together(
 /// Renders one image.
 pub(super) fn render_one(
     member: Member<'_>,
-    stage: &Stage,
+    stage: &Aggregate,
     options: &Options,
     done: &(dyn Fn(u64) + Sync),
     profile: Option<&Profile>,
@@ -105,7 +106,7 @@ pub(super) fn render_one(
 
 fn render_all(
     members: &[Member<'_>],
-    stage: &Stage,
+    stage: &Aggregate,
     options: &Options,
     watch: Watch<'_>,
     profile: Option<&Profile>,
@@ -142,7 +143,7 @@ fn render_all(
 /// Makes views of the first member and of as many more as may be held at once.
 fn prepare<'a>(
     members: &[Member<'a>],
-    stage: &'a Stage,
+    stage: &'a Aggregate,
     options: &Options,
     stop: &AtomicBool,
 ) -> Result<Vec<Views<'a>>, TogetherError> {

@@ -1,18 +1,19 @@
 //! One image under one set of effects: everything a ray needs.
 
 use super::{Member, rows, spliced};
+use crate::accel::Aggregate;
 use crate::plan::{self, Called, MotionError};
 use crate::scene::{Material, Scene};
 use crate::shade::{Settings, Shader};
 use crate::shot::{Accuracy, Effects, Sensor, SensorColor, Shot, Spectra, Switch};
-use crate::trace::{Spacetime, Stage, Tracer};
+use crate::trace::{Spacetime, Tracer};
 use std::ops::Range;
 use std::sync::{Arc, OnceLock};
 
 /// One image under one set of effects: everything a ray needs.
 pub struct View<'a> {
     scene: &'a Scene,
-    stage: &'a Stage,
+    stage: &'a Aggregate,
     /// What is simulated.
     pub called: Called,
     standing: Arc<Standing>,
@@ -35,7 +36,7 @@ impl<'a> View<'a> {
         frame: u32,
         switches: &Effects,
         scene: &'a Scene,
-        stage: &'a Stage,
+        stage: &'a Aggregate,
     ) -> Result<Self, MotionError> {
         Self::sharing(&Standings::default(), shot, frame, switches, scene, stage)
     }
@@ -47,7 +48,7 @@ impl<'a> View<'a> {
         frame: u32,
         switches: &Effects,
         scene: &'a Scene,
-        stage: &'a Stage,
+        stage: &'a Aggregate,
     ) -> Result<Self, MotionError> {
         let called = plan::called(shot, frame, switches)?;
         // Where nothing moves the links are translations, which cost nothing; light still takes
@@ -151,7 +152,7 @@ impl<'a> View<'a> {
     pub fn tracer(&self) -> Tracer<'_> {
         Tracer {
             scene: self.scene,
-            stage: self.stage,
+            aggregate: self.stage,
             spacetime: self.spacetime(),
             shadows: self.called.shadows,
             bounces: self.bounces,
@@ -203,7 +204,7 @@ pub(super) struct Standings {
 }
 
 impl Standings {
-    fn under(&self, geometry: Switch, scene: &Scene, stage: &Stage) -> Arc<Standing> {
+    fn under(&self, geometry: Switch, scene: &Scene, stage: &Aggregate) -> Arc<Standing> {
         let made = match geometry {
             Switch::Auto => &self.finite,
             Switch::Off => &self.snapshot,
@@ -250,7 +251,7 @@ impl<'a> Views<'a> {
     /// Prepares an image of so many rows.
     pub(super) fn new(
         member: Member<'a>,
-        stage: &'a Stage,
+        stage: &'a Aggregate,
         height: u32,
         standings: &Standings,
     ) -> Result<Self, MotionError> {

@@ -7,7 +7,7 @@ use super::{Start, StudyError};
 use crate::plan::Called;
 use crate::scene::{Library, Scene};
 use crate::shot::{Beaming, Effects, Shot, Switch};
-use crate::trace::Stage;
+use crate::trace::build_aggregate;
 use std::sync::Arc;
 
 /// An effect: its name, whether the image needs it, how a shot is changed to be without it, and
@@ -122,7 +122,7 @@ fn second_worldline(
     let called = others > 0;
     let off = if called {
         let scene = Scene::resolve(&shot, library, start.frame, None)?;
-        let stage = Stage::with_precision(&scene.geometry, None, shot.accuracy.tracing);
+        let stage = build_aggregate(&scene.geometry, None);
         Variant {
             shot,
             bodies: Arc::new(Bodies { scene, stage }),

@@ -28,7 +28,7 @@ use crate::render::{Options, Prepared, motion_mistake};
 use crate::scene::Scene;
 use crate::shot::{Accuracy, Mistakes, Shot, Spectra};
 use crate::store::Names;
-use crate::trace::Stage;
+use crate::trace::build_aggregate;
 use compare_1990::Compared;
 use interleaved_timing::{Measured, measure, median};
 use knobs::KNOBS;
@@ -119,7 +119,7 @@ pub fn study(
     let (exposing, _) = prepared.exposure()?;
     let subject = Subject::new(shot, frame, &exposing, request.scratch.clone());
     let scene = Scene::resolve(shot, &prepared.library, frame, None)?;
-    let stage = Stage::with_precision(&scene.geometry, None, shot.accuracy.tracing);
+    let stage = build_aggregate(&scene.geometry, None);
     let start = Start {
         shot,
         frame,

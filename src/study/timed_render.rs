@@ -1,6 +1,7 @@
 //! One timed render of an image, in the same way as every image is rendered, with seconds by phase.
 
 use super::StudyError;
+use crate::accel::Aggregate;
 use crate::film::{Film, develop};
 use crate::probe;
 use crate::render::{
@@ -10,7 +11,6 @@ use crate::render::{
 use crate::scene::Scene;
 use crate::shot::Shot;
 use crate::store::{forget_peak, peak_memory_mib, write_atomically};
-use crate::trace::Stage;
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Instant;
@@ -18,7 +18,7 @@ use std::time::Instant;
 /// A scene and its trees, ready for rays.
 pub(super) struct Bodies {
     pub(super) scene: Scene,
-    pub(super) stage: Stage,
+    pub(super) stage: Aggregate,
 }
 
 /// The image whose variants are rendered.

@@ -7,7 +7,7 @@ use restframe::render::Prepared;
 use restframe::render::{Options, render};
 use restframe::scene::Scene;
 use restframe::shot::Spectra;
-use restframe::trace::Stage;
+use restframe::trace::build_aggregate;
 use std::path::Path;
 
 /// A tenth of their size.
@@ -24,7 +24,7 @@ fn differences(number: u32) -> Comparison {
         .0
         .stops(1, prepared.shot.shot.frames);
     let scene = Scene::resolve(&prepared.shot, &prepared.library, 1, None).unwrap();
-    let stage = Stage::build(&scene.geometry, None);
+    let stage = build_aggregate(&scene.geometry, None);
     let options = Options {
         width: SIZE[0],
         height: SIZE[1],

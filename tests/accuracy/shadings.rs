@@ -5,6 +5,7 @@
 
 use super::random::Random;
 use rayon::prelude::*;
+use restframe::accel::Hit;
 use restframe::color::cie::xyz_of;
 use restframe::color::spaces::D65_XYZ;
 use restframe::color::{delta_e_2000, lab_from_xyz};
@@ -16,7 +17,7 @@ use restframe::scene::{
 use restframe::shade::{Settings, ShadeScratch, Shader};
 use restframe::shot::{self, Accuracy, Preset, Shot, Spectra};
 use restframe::spectrum::{Beyond, Spectrum, planck};
-use restframe::trace::{BodyHit, DirectLight, Node, Root, Seen, ShadeTrees, Surface};
+use restframe::trace::{DirectLight, Node, Root, Seen, ShadeTrees, Surface};
 use std::sync::Arc;
 
 const SHADINGS: u64 = 1000;
@@ -136,7 +137,7 @@ impl Shading {
     }
 
     fn trees(&self) -> ShadeTrees {
-        let hit = BodyHit {
+        let hit = Hit {
             t: 1.0,
             instance: 0,
             triangle: 0,

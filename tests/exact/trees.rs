@@ -6,7 +6,7 @@ use restframe::render::View;
 use restframe::scene::Scene;
 use restframe::shade::ShadeScratch;
 use restframe::shot::{Accuracy, SensorColor, Spectra};
-use restframe::trace::{Scratch, ShadeTrees, Stage};
+use restframe::trace::{Scratch, ShadeTrees, build_aggregate};
 use std::path::Path;
 
 /// What the centres of all pixels of a shot see, in the sensor's channels.
@@ -14,7 +14,7 @@ fn seen(prepared: &mut Prepared, accuracy: Accuracy) -> Vec<[f64; 3]> {
     prepared.shot.accuracy = accuracy;
     let shot = &prepared.shot;
     let scene = Scene::resolve(shot, &prepared.library, 1, None).unwrap();
-    let stage = Stage::build(&scene.geometry, None);
+    let stage = build_aggregate(&scene.geometry, None);
     let view = View::new(shot, 1, &shot.effects, &scene, &stage).unwrap();
     let [width, height] = shot.image.size;
     let centers = (0..height).flat_map(|y| (0..width).map(move |x| [x, y]));

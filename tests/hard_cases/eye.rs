@@ -3,18 +3,19 @@
 
 use super::scene::Set;
 use glam::DVec3;
+use restframe::accel::{Aggregate, Hit};
 use restframe::model::Mesh;
 use restframe::probe::{Probe, probe};
 use restframe::render::View;
 use restframe::scene::Scene;
-use restframe::trace::{BodyHit, Root, Scratch, Seen, ShadeTrees, Stage};
+use restframe::trace::{Root, Scratch, Seen, ShadeTrees, build_aggregate};
 
 /// A frame of a set, ready for rays.
 pub(crate) struct Eye<'a> {
     set: &'a Set,
     frame: u32,
     pub(crate) scene: Scene,
-    pub(crate) stage: Stage,
+    pub(crate) stage: Aggregate,
 }
 
 /// What a ray meets first.
@@ -22,7 +23,7 @@ pub(crate) struct Eye<'a> {
 pub(crate) struct Met {
     /// Length of the light path in the camera's rest frame.
     pub(crate) s: f64,
-    pub(crate) hit: BodyHit,
+    pub(crate) hit: Hit,
     pub(crate) worldline: usize,
 }
 
@@ -40,7 +41,7 @@ impl<'a> Eye<'a> {
 
     /// A scene that stands in for the set's own.
     pub(crate) fn of(set: &'a Set, frame: u32, scene: Scene) -> Self {
-        let stage = Stage::build(&scene.geometry, None);
+        let stage = build_aggregate(&scene.geometry, None);
         Self {
             set,
             frame,

@@ -15,7 +15,7 @@ use glam::DVec3;
 use restframe::film::Film;
 use restframe::render::View;
 use restframe::scene::LobeKind;
-use restframe::trace::{Branch, Node, Root, Scratch, Seen, ShadeTrees, Stage};
+use restframe::trace::{Branch, Node, Root, Scratch, Seen, ShadeTrees, build_aggregate};
 
 /// Light and D of each pixel may differ by this share of themselves, eight roundings of the film's
 /// f32 (the greatest value of the film is 1e6 times the least and more, so it would hide all else).
@@ -211,7 +211,7 @@ bounces = BOUNCES
 fn totally_reflected(text: &str) -> usize {
     let set = Set::new(text);
     let (shot, scene) = (&set.prepared.shot, set.scene());
-    let stage = Stage::build(&scene.geometry, None);
+    let stage = build_aggregate(&scene.geometry, None);
     let view = View::new(shot, 1, &shot.effects, &scene, &stage).unwrap();
     let [width, height] = shot.image.size;
     let directions: Vec<DVec3> = (0..width * height)

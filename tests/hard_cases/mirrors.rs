@@ -5,7 +5,7 @@ use glam::DVec3;
 use restframe::probe::{Probe, ProbeNode};
 use restframe::relativity::{Boost, Celerity};
 use restframe::render::View;
-use restframe::trace::{Scratch, Seen, ShadeTrees, Stage};
+use restframe::trace::{Scratch, Seen, ShadeTrees, build_aggregate};
 
 const EPSILON: f64 = f64::EPSILON;
 
@@ -197,7 +197,7 @@ cases! {
         let total = |set: &Set, direction: DVec3| {
             let shot = &set.prepared.shot;
             let scene = set.scene();
-            let stage = Stage::build(&scene.geometry, None);
+            let stage = build_aggregate(&scene.geometry, None);
             let view = View::new(shot, 1, &shot.effects, &scene, &stage).unwrap();
             let mut trees = ShadeTrees::default();
             view.tracer().trace(&[direction], &mut Scratch::default(), &mut trees);

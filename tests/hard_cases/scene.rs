@@ -5,7 +5,7 @@ use restframe::probe::{Probe, probe};
 use restframe::render::Prepared;
 use restframe::render::{Options, View, render};
 use restframe::scene::Scene;
-use restframe::trace::Stage;
+use restframe::trace::build_aggregate;
 
 /// A sky of 4 × 3 texels as a Radiance file, in letters: three of mantissa and an exponent of 127
 /// make m/512.
@@ -59,7 +59,7 @@ impl Set {
     pub(crate) fn probe(&self, pixel: [u32; 2]) -> Probe {
         let shot = &self.prepared.shot;
         let scene = self.scene();
-        let stage = Stage::build(&scene.geometry, None);
+        let stage = build_aggregate(&scene.geometry, None);
         let view = View::new(shot, 1, &shot.effects, &scene, &stage).unwrap();
         let stops = self
             .prepared
@@ -84,7 +84,7 @@ impl Set {
     pub(crate) fn film_of(&self, scene: &Scene) -> Film {
         use restframe::shot::Layer::{Distance, Doppler, EmissionTime, Worldline};
         let shot = &self.prepared.shot;
-        let stage = Stage::build(&scene.geometry, None);
+        let stage = build_aggregate(&scene.geometry, None);
         let [width, height] = shot.image.size;
         let options = Options {
             width,

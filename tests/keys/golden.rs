@@ -10,7 +10,7 @@ use restframe::film::to_rgb8;
 use restframe::plan::EPOCH;
 use restframe::render::{Options, development, render};
 use restframe::scene::{Library, Scene};
-use restframe::trace::Stage;
+use restframe::trace::build_aggregate;
 
 const COMMON: &str = r#"
 [shot]
@@ -91,7 +91,7 @@ fn pixels(desk: &Desk, subject: &str) -> Vec<u8> {
     let shot = desk.shot(&format!("{COMMON}{subject}"));
     let library = Library::load(&shot).unwrap();
     let scene = Scene::resolve(&shot, &library, 1, None).unwrap();
-    let stage = Stage::with_precision(&scene.geometry, None, shot.accuracy.tracing);
+    let stage = build_aggregate(&scene.geometry, None);
     let options = Options {
         width: shot.image.size[0],
         height: shot.image.size[1],

@@ -7,7 +7,7 @@ use rayon::prelude::*;
 use restframe::render::{View, rows, spliced};
 use restframe::scene::{Library, Scene};
 use restframe::shot::{Effects, Shot, parse};
-use restframe::trace::{Samples, Scratch, ShadeTrees, Stage};
+use restframe::trace::{Samples, Scratch, ShadeTrees, build_aggregate};
 use serde_json::{Value, json};
 use std::collections::HashMap;
 use std::fmt::Write;
@@ -145,7 +145,7 @@ impl Write for Hashing {
 
 /// All numbers of a shot's shade trees, hashed.
 fn trees(shot: &Shot, scene: &Scene) -> String {
-    let stage = Stage::with_precision(&scene.geometry, None, shot.accuracy.tracing);
+    let stage = build_aggregate(&scene.geometry, None);
     let samples = Samples::new(shot.image.samples, shot.image.filter);
     let [width, height] = shot.image.size;
     let mut all = Hashing(blake3::Hasher::new());

@@ -7,7 +7,7 @@ use restframe::probe::{Probe, probe};
 use restframe::render::Prepared;
 use restframe::render::{Options, View, render, rows, spliced};
 use restframe::scene::Scene;
-use restframe::trace::Stage;
+use restframe::trace::build_aggregate;
 use std::path::Path;
 use std::sync::OnceLock;
 
@@ -62,7 +62,7 @@ pub(crate) fn prepared(stem: &str) -> Prepared {
 /// The film of one frame.
 pub(crate) fn film(prepared: &Prepared, frame: u32) -> Film {
     let scene = Scene::resolve(&prepared.shot, &prepared.library, frame, None).unwrap();
-    let stage = Stage::build(&scene.geometry, None);
+    let stage = build_aggregate(&scene.geometry, None);
     let options = Options {
         width: WIDTH,
         height: HEIGHT,
@@ -90,7 +90,7 @@ impl Thumbnail {
         };
         let rgb8 = to_rgb8(&develop(&film, &development), encode);
         let scene = Scene::resolve(shot, &prepared.library, frame, None).unwrap();
-        let stage = Stage::build(&scene.geometry, None);
+        let stage = build_aggregate(&scene.geometry, None);
         let (mut probes, mut directions) = (Vec::new(), Vec::new());
         let effects = |y| {
             let mut splices = shot.splice.iter().rev();

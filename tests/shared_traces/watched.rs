@@ -1,11 +1,11 @@
 //! Work that is watched: stopped, counted, and timed.
 
 use super::{Changes, options, prepared, scene, together};
+use restframe::accel::Aggregate;
 use restframe::render::Prepared;
 use restframe::render::{Member, Options, TogetherError, Watch, render_together};
 use restframe::scene::Scene;
 use restframe::shot::{Track, Velocity};
-use restframe::trace::Stage;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::time::{Duration, Instant};
 
@@ -21,7 +21,7 @@ fn member<'a>(prepared: &'a Prepared, scene: &'a Scene) -> Member<'a> {
 }
 
 /// How long it takes to stop images in their midst; and the rays that were finished before.
-fn stopped(members: &[Member<'_>], stage: &Stage, options: &Options) -> (Duration, u64) {
+fn stopped(members: &[Member<'_>], stage: &Aggregate, options: &Options) -> (Duration, u64) {
     let (stop, rays) = (AtomicBool::new(false), AtomicU64::new(0));
     let done = |more: u64| {
         rays.fetch_add(more, Ordering::Relaxed);

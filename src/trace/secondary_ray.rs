@@ -2,13 +2,12 @@
 //! the surface and of everything it may have come from.
 
 use super::spacetime::Spacetime;
-use super::stage::RestRay;
 use crate::relativity::{Event, FourVector};
 use glam::DVec3;
 
 /// A ray from a surface event.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Flight {
+pub(super) struct SecondaryRay {
     /// The worldline in whose rest frame it is given.
     pub(super) worldline: usize,
     /// Where it starts.
@@ -20,50 +19,41 @@ pub(super) struct Flight {
     pub(super) slowness: f64,
 }
 
-/// A [`Flight`] in the rest frame of some worldline.
+/// A ray in the rest frame of the bodies that it may meet.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct RestFlight {
-    pub(super) ray: RestRay,
-    /// Time there at the start.
-    time: f64,
-    slowness: f64,
-    /// Length there per length in the flight's own frame.
+pub(super) struct RestRay {
+    /// Where it starts, there.
+    pub(super) origin: Event,
+    /// Unit direction there, against the light.
+    pub(super) direction: DVec3,
+    /// How much later light arrives per length of its way there.
+    pub(super) slowness: f64,
+    /// Length there per length in the ray's own frame.
     pub(super) stretch: f64,
-    /// ω there over ω in the flight's own frame.
+    /// ω there over ω in the ray's own frame.
     pub(super) frequency_ratio: f64,
 }
 
-impl RestFlight {
-    /// When the light left that started `distance` along the ray.
-    pub(super) fn time_at(&self, distance: f64, spacetime: &Spacetime) -> f64 {
-        self.time - spacetime.delay(self.slowness * distance)
-    }
-}
-
-impl Flight {
+impl SecondaryRay {
     /// The ray among the bodies of `worldline`; None where they move with light that glass slows
     /// down, and none of it passes them.
     ///
     /// Inside glass light's way is no null line: the steps (n, −d) of time and space are boosted
     /// as any vector is. A body that moves through glass is taken to do so in a gap too narrow to
     /// see: frequencies are those of light in vacuum of the same direction.
-    pub(super) fn among(&self, worldline: usize, spacetime: &Spacetime) -> Option<RestFlight> {
+    pub(super) fn among(&self, worldline: usize, spacetime: &Spacetime) -> Option<RestRay> {
         if worldline == self.worldline {
-            return Some(RestFlight {
-                ray: RestRay {
-                    origin: self.start.x,
-                    direction: self.direction,
-                },
-                time: self.start.t,
+            return Some(RestRay {
+                origin: self.start,
+                direction: self.direction,
                 slowness: self.slowness,
                 stretch: 1.0,
                 frequency_ratio: 1.0,
             });
         }
         let link = spacetime.link(worldline, self.worldline);
-        let start = link.event(self.start);
         let light = link.light(-self.direction);
-        let (towards_light, slowness, stretch) = if self.slowness == 1.0 {
+        let (direction, slowness, stretch) = if self.slowness == 1.0 {
             let stretch = spacetime.path_ratio(light.frequency_ratio);
             (-light.direction, 1.0, stretch)
         } else {
@@ -74,12 +64,9 @@ impl Flight {
             }
             (-step.x / stretch, step.t / stretch, stretch)
         };
-        Some(RestFlight {
-            ray: RestRay {
-                origin: start.x,
-                direction: towards_light,
-            },
-            time: start.t,
+        Some(RestRay {
+            origin: link.event(self.start),
+            direction,
             slowness,
             stretch,
             frequency_ratio: light.frequency_ratio,

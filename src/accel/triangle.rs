@@ -1,4 +1,4 @@
-//! Watertight ray–triangle intersection, in f64 or f32.
+//! Watertight ray–triangle intersection.
 //!
 //! After Woop, Benthin & Wald 2013: the triangle is sheared along the ray into a plane, where
 //! each vertex becomes one point whichever triangle it belongs to, and the signs of three edge
@@ -6,30 +6,30 @@
 //! with opposite signs; where rounding could turn a sign the function is computed again with one
 //! final rounding. So no ray slips between two triangles of a closed mesh.
 
-use super::real::Real;
+use crate::relativity::difference_of_products;
 
 /// A ray prepared for many triangles, in the coordinates of their vertices.
-pub(super) struct ShearedRay<R> {
-    origin: [R; 3],
+pub(super) struct ShearedRay {
+    origin: [f64; 3],
     axes: [usize; 3],
-    shear: [R; 3],
+    shear: [f64; 3],
 }
 
 /// Where a ray meets a triangle.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Crossing<R> {
+pub(super) struct Crossing {
     /// In multiples of the ray's direction vector.
-    pub(super) t: R,
+    pub(super) t: f64,
     /// Barycentric weights of the three vertices; they sum to 1.
-    pub(super) weights: [R; 3],
+    pub(super) weights: [f64; 3],
     /// Whether the triangle's vertices run anticlockwise as the ray sees them.
     pub(super) front: bool,
 }
 
-impl<R: Real> ShearedRay<R> {
+impl ShearedRay {
     /// A ray of non-zero direction (any length).
-    pub(super) fn new(origin: [R; 3], direction: [R; 3]) -> Self {
-        let size = direction.map(R::abs);
+    pub(super) fn new(origin: [f64; 3], direction: [f64; 3]) -> Self {
+        let size = direction.map(f64::abs);
         let z = if size[0] > size[1] {
             if size[0] > size[2] { 0 } else { 2 }
         } else if size[1] > size[2] {
@@ -38,10 +38,10 @@ impl<R: Real> ShearedRay<R> {
             2
         };
         let (mut x, mut y) = ((z + 1) % 3, (z + 2) % 3);
-        if direction[z] < R::of(0.0) {
+        if direction[z] < 0.0 {
             std::mem::swap(&mut x, &mut y); // keeps the winding
         }
-        let inverse = R::of(1.0) / direction[z];
+        let inverse = 1.0 / direction[z];
         Self {
             origin,
             axes: [x, y, z],
@@ -52,34 +52,33 @@ impl<R: Real> ShearedRay<R> {
     /// The crossing with a triangle, from in front or behind. A ray in the triangle's plane
     /// misses it.
     #[inline(always)]
-    pub(super) fn crossing(&self, triangle: &[[R; 3]; 3]) -> Option<Crossing<R>> {
-        let zero = R::of(0.0);
+    pub(super) fn crossing(&self, triangle: &[[f64; 3]; 3]) -> Option<Crossing> {
         let [a, b, c] = [
             self.seen(&triangle[0]),
             self.seen(&triangle[1]),
             self.seen(&triangle[2]),
         ];
         let edges = [edge(c, b), edge(a, c), edge(b, a)];
-        if edges.iter().any(|&e| e < zero) && edges.iter().any(|&e| e > zero) {
+        if edges.iter().any(|&e| e < 0.0) && edges.iter().any(|&e| e > 0.0) {
             return None;
         }
         let area = edges[0] + edges[1] + edges[2];
-        if area == zero {
+        if area == 0.0 {
             return None;
         }
-        let scale = R::of(1.0) / area;
+        let scale = 1.0 / area;
         let weights = edges.map(|e| e * scale);
         let depth = weights[0] * a[2] + weights[1] * b[2] + weights[2] * c[2];
         Some(Crossing {
             t: depth * self.shear[2],
             weights,
-            front: area > zero,
+            front: area > 0.0,
         })
     }
 
     /// A vertex relative to the ray: across it in two coordinates, along it in the third.
     #[inline(always)]
-    fn seen(&self, vertex: &[R; 3]) -> [R; 3] {
+    fn seen(&self, vertex: &[f64; 3]) -> [f64; 3] {
         let [x, y, z] = self.axes;
         let depth = vertex[z] - self.origin[z];
         [
@@ -92,11 +91,11 @@ impl<R: Real> ShearedRay<R> {
 
 /// Twice the signed area of (0, p, q) in the sheared plane, its sign exact.
 #[inline(always)]
-fn edge<R: Real>(p: [R; 3], q: [R; 3]) -> R {
+fn edge(p: [f64; 3], q: [f64; 3]) -> f64 {
     let (left, right) = (p[0] * q[1], p[1] * q[0]);
     let area = left - right;
-    if area.abs() <= R::of(4.0) * R::EPSILON * left.abs().max(right.abs()) {
-        return R::difference_of_products(p[0], q[1], p[1], q[0]);
+    if area.abs() <= 4.0 * f64::EPSILON * left.abs().max(right.abs()) {
+        return difference_of_products(p[0], q[1], p[1], q[0]);
     }
     area
 }

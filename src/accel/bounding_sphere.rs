@@ -1,11 +1,10 @@
-//! Bounding balls: where a ray comes near one, before f32 takes over.
+//! Bounding spheres: where a ray comes near one, before boxes in f32 take over.
 
-use super::real::Real;
 use glam::DVec3;
 
-/// A ball around a tree's content. Its radius is a power of two, so scaling by it is exact.
+/// A sphere around a tree's content. Its radius is a power of two, so scaling by it is exact.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Ball {
+pub(super) struct BoundingSphere {
     pub(super) center: DVec3,
     pub(super) radius: f64,
     /// How far the content reaches from the center, over the radius: at most 1. What comes no nearer
@@ -13,7 +12,7 @@ pub(super) struct Ball {
     pub(super) reach: f64,
 }
 
-impl Ball {
+impl BoundingSphere {
     pub(super) fn around(points: impl Iterator<Item = (DVec3, f64)> + Clone) -> Self {
         let (min, max) = points.clone().fold(
             (DVec3::INFINITY, DVec3::NEG_INFINITY),
@@ -33,42 +32,33 @@ impl Ball {
     }
 }
 
-/// How many times its length's epsilon a way is off, at most, where it ends.
-const ENDS_OFF: f64 = 4.0;
-/// The same as a part of the length, in f64.
-const ROUNDINGS: f64 = ENDS_OFF * f64::EPSILON;
+/// How far a way is off where it ends, at most, as a part of its length.
+const ROUNDINGS: f64 = 4.0 * f64::EPSILON;
 
 /// Where the rounding of a way is this many radii, f32 would overflow, and nothing is known any more.
 const LOST: f64 = 1e30;
 
-/// How far along a ray (from the centre of a ball, direction of squared length `d2`) it is on the
-/// near side of the ball; 0 inside or past that; None where the ray misses the ball.
+/// How far along a ray (from the centre of a sphere, direction of squared length `d2`) it is on the
+/// near side of the sphere; 0 inside or past that; None where the ray misses the sphere.
 #[inline(always)]
-pub(super) fn near_side<R: Real>(
-    from_center: R::Vector,
-    direction: R::Vector,
-    d2: R,
-    radius: R,
-) -> Option<R> {
-    let zero = R::of(0.0);
-    let closest = -R::dot(from_center, direction) / d2;
+pub(super) fn near_side(from_center: DVec3, direction: DVec3, d2: f64, radius: f64) -> Option<f64> {
+    let closest = -from_center.dot(direction) / d2;
     // From afar, the rounding of `closest` counts beside the radius.
-    let roundings = R::of(ENDS_OFF) * R::EPSILON;
-    let span = radius * R::of(1.0001) + roundings * closest.abs() * d2.sqrt();
-    // Behind and outside, or passing by: the closest point of the ray is outside the ball.
-    let passing = from_center + direction * closest.max(zero);
+    let span = radius * 1.0001 + ROUNDINGS * closest.abs() * d2.sqrt();
+    // Behind and outside, or passing by: the closest point of the ray is outside the sphere.
+    let passing = from_center + direction * closest.max(0.0);
     // What is no number, since it left the range, misses too.
-    let meets = R::dot(passing, passing) <= span * span && span <= R::of(LOST) * radius;
-    meets.then(|| (closest - span / d2.sqrt()).max(zero))
+    let meets = passing.dot(passing) <= span * span && span <= LOST * radius;
+    meets.then(|| (closest - span / d2.sqrt()).max(0.0))
 }
 
 /// What is left of `reach` from `start` on, not less by rounding: a tree must open what lies there.
 #[inline(always)]
-pub(super) fn left<R: Real>(reach: R, start: R) -> R {
-    (reach - start) + R::of(ENDS_OFF) * R::EPSILON * start
+pub(super) fn left(reach: f64, start: f64) -> f64 {
+    (reach - start) + ROUNDINGS * start
 }
 
-/// Whether a ray of unit direction comes from so near a ball that [`near_side`] takes it there: the
+/// Whether a ray of unit direction comes from so near a sphere that [`near_side`] takes it there: the
 /// rounding of its way is within the radius.
 #[inline(always)]
 pub(super) fn is_near(from_center: DVec3, direction: DVec3, radius: f64) -> bool {
@@ -76,14 +66,14 @@ pub(super) fn is_near(from_center: DVec3, direction: DVec3, radius: f64) -> bool
 }
 
 /// A ray of unit direction d from far away: how far it goes until it [`is_near`], and where it is
-/// then, from the ball's centre. None where it misses the ball, or nobody knows.
+/// then, from the sphere's centre. None where it misses the sphere, or nobody knows.
 ///
 /// A way of length L ends off by ε|d_i|L in each coordinate. Along the ray that does no harm: from
-/// where it got to it is another way to the ball, 10¹⁵ times shorter. Across it, the coordinate i
+/// where it got to it is another way to the sphere, 10¹⁵ times shorter. Across it, the coordinate i
 /// takes part with √(1 − d_i²) of its rounding, and no further step finds back what is lost:
 /// ε L |(d_i √(1 − d_i²))|. That vanishes where the ray goes along an axis; there a body coming on at
 /// γ = 10⁷⁴ is met as exactly as at 10. Obliquely it is about εL, where a camera at the distance r
-/// of a body that comes on has L = 2γr. Where it exceeds the radius, on which side of the ball the
+/// of a body that comes on has L = 2γr. Where it exceeds the radius, on which side of the sphere the
 /// ray passes is left to chance, and then it is said to miss.
 #[cold]
 pub(super) fn brought_near(
@@ -99,7 +89,7 @@ pub(super) fn brought_near(
             return Some((way, from_center));
         }
         let closest = -from_center.dot(direction);
-        // Also where it is behind: the ray starts outside the ball.
+        // Also where it is behind: the ray starts outside the sphere.
         if closest <= 0.0 || ROUNDINGS * closest * across > radius {
             return None;
         }
@@ -115,13 +105,13 @@ pub(super) fn brought_near(
 mod tests {
     use super::*;
 
-    /// Where a ray towards (0.5, 0, 0) of a unit ball, from `way` before it, has come near.
+    /// Where a ray towards (0.5, 0, 0) of a unit sphere, from `way` before it, has come near.
     fn come_near(direction: DVec3, way: f64) -> Option<(f64, DVec3)> {
         brought_near(DVec3::new(0.5, 0.0, 0.0) - direction * way, direction, 1.0)
     }
 
     #[test]
-    fn along_an_axis_a_ball_is_met_from_any_distance() {
+    fn along_an_axis_a_sphere_is_met_from_any_distance() {
         for way in [1e17, 1e25, 1e45, 1e75, 1e150, 1e290] {
             let (gone, at) = come_near(DVec3::NEG_Z, way).unwrap();
             assert!((gone / way - 1.0).abs() < 1e-14, "{way:e}");
@@ -145,7 +135,7 @@ mod tests {
     }
 
     #[test]
-    fn obliquely_a_ball_is_missed_where_rounding_hides_it() {
+    fn obliquely_a_sphere_is_missed_where_rounding_hides_it() {
         let oblique = DVec3::new(0.48, -0.64, -0.6);
         let (_, at) = come_near(oblique, 1.2e15).unwrap();
         let passes = at - oblique * at.dot(oblique);
@@ -165,6 +155,6 @@ mod tests {
     #[test]
     fn a_speck_too_small_for_its_place_to_be_known_is_missed() {
         let far = DVec3::new(0.0, 0.0, 1e60);
-        assert_eq!(near_side(far, DVec3::NEG_Z, 1.0_f64, 1.0), None);
+        assert_eq!(near_side(far, DVec3::NEG_Z, 1.0, 1.0), None);
     }
 }
