@@ -1,4 +1,4 @@
-//! `restframe probe`.
+//! `restframe probe`: what the center of one pixel sees.
 
 use super::{Failed, ProbeArguments, failed, mistaken, misused, print, print_json};
 use crate::frame::Frame;
@@ -11,13 +11,13 @@ use crate::store::{Names, write_atomically};
 use crate::trace::build_aggregate;
 use std::path::Path;
 
-/// The page of a plot: two panels side by side, that fit into a page of text.
+/// The page of a plot: two panels side by side, fit for a page of text.
 const PAGE: Page = Page {
     size: [1120.0, 460.0],
     font: 14.0,
 };
 
-/// Answers for the centre of one pixel, under the effects of the splice that it lies in.
+/// Probes the center of one pixel, under the effects of the splice that contains it.
 pub(super) fn run(arguments: &ProbeArguments) -> Result<(), Failed> {
     if arguments
         .plot
@@ -67,7 +67,7 @@ pub(super) fn run(arguments: &ProbeArguments) -> Result<(), Failed> {
     }
 }
 
-/// Whether two paths lead to one file that exists.
+/// Whether two paths lead to the same existing file.
 fn same(one: &Path, other: &Path) -> bool {
     matches!((one.canonicalize(), other.canonicalize()), (Ok(one), Ok(other)) if one == other)
 }
@@ -156,7 +156,7 @@ fn link(index: usize, node: &ProbeNode) -> String {
     format!("  {index:>3}  {what}, {how}")
 }
 
-/// A wavelength, nm: in powers of ten from far outside the visible.
+/// A wavelength in nm, with an exponent if far from the visible.
 fn length(nm: f64) -> String {
     if (10.0..1e5).contains(&nm) {
         format!("{nm:.1} nm")

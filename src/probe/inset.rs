@@ -24,11 +24,11 @@ use crate::trace::{Seen, ShadeTrees};
 
 /// Grey, so that it is told from the others without seeing colours.
 const SUM: Color = [165, 165, 165];
-/// Above the highest point of a curve.
+/// Room above the highest point of a curve.
 const HEADROOM: f64 = 1.03;
-/// From the window's ends to those of the axis.
+/// Ratio of the ends of the axis to those of the window.
 const BESIDE: f64 = 10.0;
-/// Most wavelengths of a curve: more than any picture has columns for it.
+/// Number of wavelengths of a curve at most: more than any image has columns for it.
 const MOST: f64 = 8192.0;
 
 /// What the insets of an image of `size` pixels show, in the order of the shot's; None where one is
@@ -91,7 +91,7 @@ pub fn inset(
     let line = |name: &str, color, width: f64, values| {
         curve(name, color, Stroke::Solid(width), &nm, values)
     };
-    // The sum is wide, pale and below, so that what makes it is seen on it.
+    // The sum is wide, pale and below, so that its parts are visible on it.
     let series = vec![
         line("sum", SUM, 6.5, sum),
         line("surface", SURFACE, 2.4, light.surface),
@@ -110,7 +110,7 @@ pub fn inset(
     }
 }
 
-/// Doppler factor and temperature of what is seen first.
+/// Doppler factor and temperature of the first surface.
 fn caption(trees: &ShadeTrees, view: &View<'_>, scene: &Scene) -> String {
     let root = trees.roots[0];
     let Some(node) = trees.nodes_of(root).first() else {
@@ -145,9 +145,9 @@ fn white(frame: &Frame<'_>, exposure: f64) -> f64 {
     if white.is_finite() { white } else { 0.0 }
 }
 
-/// A decade to each side of a window, rounded inwards.
+/// A decade to each side of a window, rounded inward.
 fn band([from, to]: [f64; 2]) -> [f64; 2] {
-    // 1, 2 and 5 are their own inverses but for a power of ten.
+    // 1, 2 and 5 are their own inverses up to a power of ten.
     [round_up(from / BESIDE), 1.0 / round_up(1.0 / BESIDE / to)]
 }
 

@@ -1,4 +1,4 @@
-//! A film to the files of one frame, as bytes: developed, insets drawn, encoded.
+//! From a film to the files of one frame, as bytes: development, insets, encoding.
 
 use super::development;
 use crate::film::{Film, develop, to_rgb8};
@@ -12,13 +12,13 @@ use crate::shot::{Depth, Exposure, Format, Inset, Sequence, Track};
 pub struct Pictures {
     /// Extension and bytes, in the order of the shot's formats.
     pub files: Vec<(&'static str, Vec<u8>)>,
-    /// Values beyond what a file can hold.
+    /// Number of values beyond what a file can hold, which were clamped.
     pub saturated: u64,
-    /// What could not be drawn, and why.
+    /// Insets that could not be drawn, with reasons.
     pub warnings: Vec<String>,
 }
 
-/// How a film was exposed, beside what the shot says.
+/// Facts on how a film was exposed that are not in the shot.
 #[derive(Debug, Clone, Copy)]
 pub struct PictureInfo<'a> {
     /// Exposure, stops.

@@ -1,4 +1,4 @@
-//! Exposure metered on a small render of frame 1.
+//! Metering: exposure from a small render of frame 1.
 
 use super::{Options, render};
 use crate::accel::Aggregate;
@@ -10,9 +10,9 @@ use crate::trace::build_aggregate;
 
 /// What metering found, and what it built on the way: frame 1, for whoever renders it next.
 pub struct Metered {
-    /// Exposure in stops; None where all is black.
+    /// Exposure in stops; None if the image is black.
     pub stops: Option<f64>,
-    /// Frame 1.
+    /// The scene of frame 1.
     pub scene: Scene,
     /// Its bodies.
     pub stage: Aggregate,
@@ -44,5 +44,5 @@ pub fn metered_exposure(shot: &Shot, library: &Library) -> Result<Metered, Mista
     })
 }
 
-/// Width of the render that exposure is metered on, pixels.
+/// Width of the render for metering, pixels.
 const METER_WIDTH: f64 = 160.0;

@@ -30,16 +30,16 @@ pub use profile::{Profile, Seconds};
 pub use together::{Member, Together, Watch, render_together};
 pub use view::View;
 
-/// Size and quality of an image, as asked for on the command line or by the shot.
+/// Size and quality of an image, as given on the command line or by the shot.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Options {
-    /// Pixels in a row.
+    /// Width in pixels.
     pub width: u32,
-    /// Rows.
+    /// Height in pixels.
     pub height: u32,
-    /// Samples a pixel, at least 1.
+    /// Samples per pixel, at least 1.
     pub samples: u32,
-    /// Layers beside the light.
+    /// Layers besides the light.
     pub layers: Vec<Layer>,
 }
 
@@ -68,7 +68,7 @@ pub fn render_profiled(
     together::render_one(member, stage, options, done, profile)
 }
 
-/// Memory of an image's film with its layers, bytes.
+/// Memory of an image's film with its layers, in bytes.
 pub fn film_bytes(options: &Options) -> u64 {
     const LAYERS: [Layer; 4] = [
         Layer::Doppler,

@@ -1,4 +1,4 @@
-//! Shots read with all files that they name, checked frame by frame, and how they are exposed.
+//! Shots read with all files that they name and checked frame by frame; and their exposure.
 
 use super::metered_exposure;
 use crate::accel::Aggregate;
@@ -14,25 +14,25 @@ use std::path::Path;
 pub struct Prepared {
     /// The shot.
     pub shot: Shot,
-    /// What it reads from other files.
+    /// The files that it names.
     pub library: Library,
 }
 
 impl Prepared {
-    /// Reads a shot and everything it names, and resolves every frame.
+    /// Reads a shot and everything that it names, and resolves every frame.
     ///
     /// # Errors
-    /// All its mistakes.
+    /// All mistakes of the shot.
     pub fn read(path: &Path) -> Result<Self, Mistakes> {
         let shot = shot::load(path)?;
         let frames = 1..=shot.shot.frames;
         Self::new(shot, frames)
     }
 
-    /// Reads everything a shot names, and resolves the given frames.
+    /// Reads everything that a shot names, and resolves the given frames.
     ///
     /// # Errors
-    /// All its mistakes.
+    /// All mistakes of the shot.
     pub fn new(shot: Shot, frames: impl Iterator<Item = u32>) -> Result<Self, Mistakes> {
         let library = Library::load(&shot)?;
         let frames: Vec<u32> = frames.collect();
@@ -51,8 +51,8 @@ impl Prepared {
         Ok(Self { shot, library })
     }
 
-    /// Materials and lamps whose bands the sensor's wavelengths cannot tell apart, by the first, the
-    /// middle or the last frame, whichever is the first that calls for Doppler shifts.
+    /// Materials and lamps with bands that the sensor's wavelengths cannot resolve, by the first,
+    /// the middle or the last frame: the first of these with a Doppler shift.
     pub fn unresolved(&self) -> Vec<Unresolved> {
         let frames = self.shot.shot.frames;
         let called = [1, frames.div_ceil(2), frames]
@@ -78,8 +78,8 @@ impl Prepared {
         unresolved(&scene, &settings)
     }
 
-    /// What the shot's files ask for and the picture will not show, each once, and what its sensor
-    /// cannot tell apart.
+    /// Warnings: content of the shot's files that the image will not show, each once, and bands
+    /// that its sensor cannot resolve.
     pub fn warnings(&self) -> Vec<String> {
         let seen: IndexSet<(&Path, String)> = self.library.warnings(&self.shot).collect();
         let line = |(file, warning): (&Path, String)| format!("{}: {warning}", file.display());
@@ -105,14 +105,14 @@ impl Prepared {
     }
 }
 
-/// How a shot's frames are exposed.
+/// The exposure of a shot's frames.
 #[derive(Debug, Clone)]
 pub enum Exposing {
     /// As its author wrote.
     Authored,
     /// As metered on frame 1, in stops.
     Metered(f64),
-    /// Frame 1 was metered and is all black: 0 stops.
+    /// 0 stops, because frame 1 was metered and is black.
     Black,
 }
 

@@ -1,4 +1,4 @@
-//! Several images in one: those that share shade trees are traced once and shaded each.
+//! Several images at once: those that share shade trees are traced once and shaded separately.
 
 use super::band::empty_film;
 use super::expose::{Stopped, expose};
@@ -14,9 +14,9 @@ use rayon::prelude::*;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 
-/// Most memory of the shaders of images that are traced together, bytes: some MB each over a few
-/// dozen lamps and materials, 100 MB where there are as many as are tabulated. Where there is more,
-/// the trace is repeated.
+/// Memory of the shaders of images that are traced together at most, bytes: some MB each for a few
+/// dozen lamps and materials, 100 MB for as many as are tabulated. If more is needed, the trace is
+/// repeated.
 const SHADERS: usize = 256 << 20;
 
 /// One of the images that share a trace. They may be of different shots.
@@ -28,25 +28,25 @@ pub struct Member<'a> {
     pub scene: &'a Scene,
 }
 
-/// Who is told of the work, and who may stop it.
+/// Observer of the work: receives progress, and can stop it.
 #[derive(Clone, Copy)]
 pub struct Watch<'a> {
-    /// Told of finished rays, each counted once for every image, from any thread.
+    /// Called with the number of finished rays, each counted once for every image, from any thread.
     pub done: &'a (dyn Fn(u64) + Sync),
-    /// Once true, the work ends within milliseconds.
+    /// If it becomes true, the work ends within milliseconds.
     pub stop: &'a AtomicBool,
 }
 
-/// Images rendered together.
+/// Images rendered together, and the time that they took.
 #[derive(Debug, Default)]
 pub struct Together {
-    /// One for each member.
+    /// One film for each member.
     pub films: Vec<Film>,
-    /// Seconds of the clock on the wall: curves and links made ready,
+    /// Wall-clock seconds of preparing: curves and links.
     pub prepare: f64,
-    /// rays traced,
+    /// Wall-clock seconds of tracing.
     pub trace: f64,
-    /// shade trees to light, of all images. The three add up to the whole.
+    /// Wall-clock seconds of shading all images. The three add up to the whole.
     pub shade: f64,
 }
 
@@ -118,7 +118,7 @@ fn render_all(
     Ok(together)
 }
 
-/// Makes views of the first member and of as many more as may be held at once.
+/// Views of the first member and of as many more as memory allows at once.
 fn prepare<'a>(
     members: &[Member<'a>],
     stage: &'a Aggregate,

@@ -10,7 +10,7 @@ use crate::trace::{Spacetime, Tracer};
 use std::ops::Range;
 use std::sync::{Arc, OnceLock};
 
-/// One image under one set of effects: everything a ray needs.
+/// One image under one set of effects: everything that a ray needs.
 pub struct View<'a> {
     scene: &'a Scene,
     stage: &'a Aggregate,
@@ -113,8 +113,8 @@ impl<'a> View<'a> {
             .get_or_init(|| self.shader_over(frame.sensor.window, frame.accuracy.wavelengths))
     }
 
-    /// A shader of this image over another band (nm), for curves rather than pictures: spectra are
-    /// read as their author wrote them, so that no baking shows at any wavelength or shift.
+    /// A shader of this image over another band (nm), for curves and not for images: spectra are
+    /// evaluated as their author wrote them, so that no baking shows at any wavelength or shift.
     pub fn shader_over(&self, window_nm: [f64; 2], wavelengths: u32) -> Shader {
         let settings = Settings {
             called: &self.effects,
@@ -144,7 +144,7 @@ impl<'a> View<'a> {
         self.bounces > 0
     }
 
-    /// What rays are traced through.
+    /// The tracer for its rays.
     pub fn tracer(&self) -> Tracer<'_> {
         Tracer {
             scene: self.scene,
@@ -157,8 +157,8 @@ impl<'a> View<'a> {
         }
     }
 
-    /// Whether what tracing reads is the other's, as far as that is cheap to compare: not so where
-    /// images were put together that share no trace.
+    /// Whether tracing would give the same, as far as that is cheap to compare: false if images
+    /// were put together that do not share a trace.
     pub(super) fn traces_like(&self, other: &Self) -> bool {
         let of_scene = |view: &Self| {
             let scene = view.scene;
@@ -187,7 +187,7 @@ struct RelativeMotion {
     spacetime: Spacetime,
     /// Largest |ln D| of any worldline to the camera's.
     to_camera: f64,
-    /// Largest |ln D| of any body to any lamp.
+    /// Largest |ln D| between any body and any lamp.
     to_lamps: f64,
 }
 
@@ -237,14 +237,14 @@ fn largest_rapidity(scene: &Scene, from: usize, to: impl Iterator<Item = usize>)
     to.map(rapidity).fold(0.0, f64::max) * (1.0 + 1e-9) + 1e-9
 }
 
-/// One image: its view, and those of the rows that splices cover.
+/// The views of one image: its own, and those of rows that splices cover.
 pub(super) struct Views<'a> {
     whole: View<'a>,
     splices: Vec<(Range<u32>, View<'a>)>,
 }
 
 impl<'a> Views<'a> {
-    /// Prepares an image of so many rows.
+    /// Prepares an image of `height` rows.
     pub(super) fn new(
         member: Member<'a>,
         stage: &'a Aggregate,
@@ -271,7 +271,7 @@ impl<'a> Views<'a> {
             .map_or(&self.whole, |(_, view)| view)
     }
 
-    /// Memory of its tables, bytes.
+    /// Memory of its tables, in bytes.
     pub(super) fn bytes(&self) -> usize {
         let splices = self.splices.iter().map(|(_, view)| view);
         splices

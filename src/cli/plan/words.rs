@@ -13,7 +13,7 @@ pub(super) fn word(status: &Status) -> &'static str {
     }
 }
 
-/// What there is to do, in a few lines.
+/// The work to do, in a few lines.
 pub(super) fn head(shot_folder: &ShotFolder, totals: &Totals) -> String {
     let picture = shot_folder.keys.resolution();
     let [width, height] = picture.size;
@@ -54,7 +54,7 @@ pub(super) fn line(run: &Run) -> String {
     format!("{frames}  {status}  {effects}  {traces}")
 }
 
-/// Why effects are called for, those of one reason together.
+/// Reasons for the effects, with those of the same reason together.
 pub(super) fn sentences(planned: &FrameForecast) -> Vec<String> {
     let names = planned.called.names();
     let mut effects: IndexMap<&str, Vec<&str>> = IndexMap::new();
