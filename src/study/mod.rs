@@ -9,6 +9,7 @@
 mod compare_1990;
 pub mod displacement;
 mod effects;
+mod error;
 mod errors;
 mod interleaved_timing;
 mod knobs;
@@ -21,6 +22,7 @@ mod sweep;
 mod timed_render;
 mod whole;
 
+pub use error::StudyError;
 pub use results::Study;
-pub use start::{Request, StudyError};
+pub use start::Request;
 pub use whole::study;

@@ -1,18 +1,8 @@
 //! What to study, and the image that every setting starts from.
 
-use super::compare_1990::Compared;
-use super::interleaved_timing::{Measured, measure, median};
-use super::knobs::KNOBS;
-use super::results::{Machine, Noise, PhaseTime};
-use super::timed_render::{Bodies, PHASES, Subject, Variant};
-use crate::frame::{ActiveEffects, Frame};
-use crate::image::EncodeError;
-use crate::image::compare::CompareError;
-use crate::render::{Options, Prepared};
-use crate::scene::Scene;
-use crate::shot::{Accuracy, Mistakes, Shot, Spectra};
-use crate::store::Names;
-use crate::trace::build_aggregate;
+use super::timed_render::{Bodies, Variant};
+use crate::render::Options;
+use crate::shot::Shot;
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -27,26 +17,6 @@ pub struct Request {
     pub repeats: u32,
     /// Scratch folder; its files are written only to time writing.
     pub scratch: PathBuf,
-}
-
-/// Reason why a study failed.
-#[derive(Debug, thiserror::Error)]
-pub enum StudyError {
-    /// The shot has a mistake that shows in this frame.
-    #[error("the shot has mistakes")]
-    Mistakes(#[from] Mistakes),
-    /// An image could not be encoded.
-    #[error(transparent)]
-    Encode(#[from] EncodeError),
-    /// A file could not be written.
-    #[error("{0}")]
-    Write(#[from] std::io::Error),
-    /// A file that was written could not be read back.
-    #[error("a picture just written cannot be read: {0}")]
-    Read(#[from] image::ImageError),
-    /// Two images could not be compared.
-    #[error(transparent)]
-    Compare(#[from] CompareError),
 }
 
 /// The image with the settings of the shot, from which every variant starts.

@@ -1,22 +1,20 @@
 //! A study of one image: every knob, every effect, the phases of its time.
 
 use super::compare_1990::Compared;
+use super::error::StudyError;
 use super::interleaved_timing::{Measured, measure, median};
 use super::knobs::KNOBS;
 use super::results::Study;
 use super::results::{Machine, Noise, PhaseTime};
-use super::start::{Request, Start, StudyError};
+use super::start::{Request, Start};
 use super::timed_render::{Bodies, PHASES, Subject, Variant};
 use super::{effects, knobs, ranking, sweep};
 use crate::frame::{ActiveEffects, Frame};
-use crate::image::EncodeError;
-use crate::image::compare::CompareError;
-use crate::render::{Options, Prepared};
+use crate::render::Prepared;
 use crate::scene::Scene;
-use crate::shot::{Accuracy, Mistakes, Shot, Spectra};
+use crate::shot::{Accuracy, Shot, Spectra};
 use crate::store::Names;
 use crate::trace::build_aggregate;
-use std::path::PathBuf;
 use std::sync::Arc;
 
 /// Studies one image. `news` receives a line on each step.
