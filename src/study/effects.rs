@@ -2,8 +2,8 @@
 
 use super::interleaved_timing::{median, most_rounds as pairs, timing};
 use super::results::EffectCost;
+use super::start::{Start, StudyError};
 use super::timed_render::{Bodies, Subject, Variant};
-use super::{Start, StudyError};
 use crate::frame::{ActiveEffects, Frame, Splice};
 use crate::scene::{Library, Scene};
 use crate::shot::{Beaming, Effects, Shot, Switch};
