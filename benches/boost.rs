@@ -50,18 +50,22 @@ fn rays_many_at_a_time(bencher: Bencher<'_, '_>, lorentz_factor: f64) {
     };
     let link = Link::Finite(Transform::between(&Worldline::LAB, &moving));
     let directions = directions();
-    let mut out = Vec::new();
+    let (mut boosted, mut ratios) = (Vec::new(), Vec::new());
     bencher
         .counter(ItemsCount::new(directions.len()))
-        .bench_local(|| boost_directions(&link, black_box(&directions), &mut out));
+        .bench_local(|| {
+            boost_directions(&link, black_box(&directions), &mut boosted, &mut ratios);
+        });
 }
 
 #[divan::bench]
 fn rays_of_a_camera_that_moves_along(bencher: Bencher<'_, '_>) {
     let link = Link::Finite(Transform::IDENTITY);
     let directions = directions();
-    let mut out = Vec::new();
+    let (mut boosted, mut ratios) = (Vec::new(), Vec::new());
     bencher
         .counter(ItemsCount::new(directions.len()))
-        .bench_local(|| boost_directions(&link, black_box(&directions), &mut out));
+        .bench_local(|| {
+            boost_directions(&link, black_box(&directions), &mut boosted, &mut ratios);
+        });
 }

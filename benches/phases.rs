@@ -7,13 +7,14 @@ mod read;
 
 use divan::{Bencher, black_box, counter::ItemsCount};
 use read::read;
+use restframe::accel::Aggregate;
 use restframe::film::{Development, Film, develop};
+use restframe::frame::Frame;
 use restframe::image::exr::{self, Depth};
 use restframe::image::{Metadata, png};
-use restframe::queue::Prepared;
+use restframe::render::Prepared;
 use restframe::render::{Options, development, render};
 use restframe::scene::Scene;
-use restframe::trace::Stage;
 use std::path::Path;
 
 fn main() {
@@ -56,11 +57,19 @@ impl Picture {
             .build()
             .expect("a thread can be had");
         bencher.counter(ItemsCount::new(rays)).bench_local(|| {
-            one_thread.install(|| render(&prepared.shot, 1, &scene, &stage, &options, &|_| ()))
+            one_thread.install(|| {
+                render(
+                    &Frame::new(&prepared.shot, 1).expect("it moves"),
+                    &scene,
+                    &stage,
+                    &options,
+                    &|_| (),
+                )
+            })
         });
     }
 
-    fn read(&self) -> (Prepared, Scene, Stage) {
+    fn read(&self) -> (Prepared, Scene, Aggregate) {
         let sphere = Path::new(env!("CARGO_MANIFEST_DIR")).join("assets/sphere.obj");
         let sphere = sphere.to_str().expect("a path in UTF-8");
         let scene = self.scene.replace("SPHERE", sphere);
@@ -183,17 +192,13 @@ fn film() -> (Film, Development) {
     };
     let (prepared, scene, stage) = picture.read();
     let film = render(
-        &prepared.shot,
-        1,
+        &Frame::new(&prepared.shot, 1).expect("it moves"),
         &scene,
         &stage,
         &picture.options(),
         &|_| (),
     );
-    (
-        film.expect("nothing moves"),
-        development(&prepared.shot, 0.0),
-    )
+    (film, development(prepared.shot.sensor.color, 0.0))
 }
 
 #[divan::bench(sample_count = 50, max_time = 2)]

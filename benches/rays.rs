@@ -1,13 +1,13 @@
-//! Primary and shadow rays through the narrow interface of the stage: a shell of one mesh, and
-//! rows of a thousand instances; primary rays in f32 too.
+//! Primary and shadow rays through the single-ray interface of the aggregate: a shell of one mesh, and
+//! rows of a thousand instances.
 
 mod shell;
 
 use divan::{Bencher, counter::ItemsCount};
 use glam::{DAffine3, DVec3};
+use restframe::accel::{Aggregate, Ray};
 use restframe::scene::{Geometry, Scene};
-use restframe::shot::Precision;
-use restframe::trace::{RestRay, Stage};
+use restframe::trace::build_aggregate;
 use shell::shell;
 use std::sync::Arc;
 
@@ -15,14 +15,14 @@ fn main() {
     divan::main();
 }
 
-fn rays(origin: DVec3) -> Vec<RestRay> {
+fn rays(origin: DVec3) -> Vec<Ray> {
     (0..4096)
         .map(|i| {
             let (x, y) = (
                 f64::from(i % 64) / 32.0 - 1.0,
                 f64::from(i / 64) / 32.0 - 1.0,
             );
-            RestRay {
+            Ray {
                 origin,
                 direction: DVec3::new(x, 0.5625 * y, -1.0).normalize(),
             }
@@ -51,29 +51,29 @@ fn rows(scene: &Scene) -> (Geometry, usize) {
     (geometry, one.worldline as usize)
 }
 
-fn nearest(bencher: Bencher<'_, '_>, stage: &Stage, worldline: usize) {
+fn nearest(bencher: Bencher<'_, '_>, stage: &Aggregate, worldline: usize) {
     let rays = rays(DVec3::ZERO);
     bencher
         .counter(ItemsCount::new(rays.len()))
         .bench_local(|| {
             rays.iter()
-                .filter_map(|ray| stage.nearest(worldline, ray, f64::INFINITY))
+                .filter_map(|ray| stage.intersect_ray(worldline, ray, f64::INFINITY))
                 .map(|hit| hit.t)
                 .sum::<f64>()
         });
 }
 
 /// Shadow rays from what primary rays hit to a lamp at the origin of the shell.
-fn blocked(bencher: Bencher<'_, '_>, stage: &Stage, worldline: usize) {
+fn blocked(bencher: Bencher<'_, '_>, stage: &Aggregate, worldline: usize) {
     let lamp = DVec3::new(0.0, 3.0, 1.0);
-    let towards_lamp: Vec<(RestRay, f64)> = rays(DVec3::ZERO)
+    let towards_lamp: Vec<(Ray, f64)> = rays(DVec3::ZERO)
         .iter()
         .filter_map(|ray| {
-            let hit = stage.nearest(worldline, ray, f64::INFINITY)?;
+            let hit = stage.intersect_ray(worldline, ray, f64::INFINITY)?;
             let from = ray.direction * hit.t * (1.0 - 1e-9);
             let path = lamp - from;
             Some((
-                RestRay {
+                Ray {
                     origin: from,
                     direction: path.normalize(),
                 },
@@ -86,7 +86,7 @@ fn blocked(bencher: Bencher<'_, '_>, stage: &Stage, worldline: usize) {
         .bench_local(|| {
             towards_lamp
                 .iter()
-                .filter(|(ray, reach)| stage.blocks(worldline, ray, *reach))
+                .filter(|(ray, reach)| stage.occludes_ray(worldline, ray, *reach))
                 .count()
         });
 }
@@ -105,26 +105,7 @@ fn primary_shell(bencher: Bencher<'_, '_>) {
 fn primary_rows(bencher: Bencher<'_, '_>) {
     let (_, scene, _) = shell(0.0, "shell", "", "");
     let (geometry, worldline) = rows(&scene);
-    nearest(bencher, &Stage::build(&geometry, None), worldline);
-}
-
-#[divan::bench]
-fn primary_shell_f32(bencher: Bencher<'_, '_>) {
-    let (_, scene, _) = shell(0.0, "shell", "", "");
-    let stage = Stage::with_precision(&scene.geometry, None, Precision::F32);
-    nearest(
-        bencher,
-        &stage,
-        scene.geometry.instances[0].worldline as usize,
-    );
-}
-
-#[divan::bench]
-fn primary_rows_f32(bencher: Bencher<'_, '_>) {
-    let (_, scene, _) = shell(0.0, "shell", "", "");
-    let (geometry, worldline) = rows(&scene);
-    let stage = Stage::with_precision(&geometry, None, Precision::F32);
-    nearest(bencher, &stage, worldline);
+    nearest(bencher, &build_aggregate(&geometry, None), worldline);
 }
 
 #[divan::bench]
@@ -141,12 +122,12 @@ fn shadow_shell(bencher: Bencher<'_, '_>) {
 fn shadow_rows(bencher: Bencher<'_, '_>) {
     let (_, scene, _) = shell(0.0, "shell", "", "");
     let (geometry, worldline) = rows(&scene);
-    blocked(bencher, &Stage::build(&geometry, None), worldline);
+    blocked(bencher, &build_aggregate(&geometry, None), worldline);
 }
 
 #[divan::bench]
 fn build_stage_of_rows(bencher: Bencher<'_, '_>) {
     let (_, scene, _) = shell(0.0, "shell", "", "");
     let geometry = Arc::new(rows(&scene).0);
-    bencher.bench_local(|| Stage::build(&geometry, None));
+    bencher.bench_local(|| build_aggregate(&geometry, None));
 }

@@ -4,7 +4,7 @@
 //! ```text
 //!             relativity      spectrum                       leaves: import nothing of ours
 //!                  \             /
-//!  shot ──> plan ──> scene ──> trace ──> shade ──> film      steps: values, one direction
+//!  shot ──> frame ─> scene ──> trace ──> shade ──> film      steps: values, one direction
 //!             │                                     │
 //!             └────────── render, probe ────────────┘
 //!                               │
@@ -19,8 +19,9 @@
 //! - [`spectrum`]: curves over wavelength. Finite and non-negative at every wavelength above 0.
 //! - [`shot`]: the TOML as its author wrote it. A [`shot::Shot`] that exists has no mistake that
 //!   its own text could show.
-//! - [`plan`]: the effects that an image calls for. No mesh, no pixel.
+//! - [`frame`]: the effects that an image calls for. No mesh, no pixel.
 //! - [`scene`]: one image's bodies, lamps and camera. Nothing is optional, relative or a name.
+//! - [`accel`]: batches of rays to hits and occlusion: trees, instances, triangles.
 //! - [`trace`]: nearest hits over all worldlines, and shade trees. No spectrum.
 //! - [`shade`]: shade trees to light. The only place where a Doppler factor meets a spectrum is
 //!   [`shade::received`].
@@ -46,25 +47,26 @@
 //! differences near the light cone are rewritten as sums ([`relativity::Boost`]).
 //!
 //! **f32**, each with its bound: boxes of the trees, in coordinates in which the tree fits the unit
-//! ball, widened by 2·10⁻⁶ of it (they decide what is tested, never what is hit); baked curves and
+//! sphere, widened by 2·10⁻⁶ of it (they decide what is tested, never what is hit); baked curves and
 //! the sums over them (6·10⁻⁸ a value, shapes scaled to a peak of 1, so that only what is 10⁻³⁰ of
 //! the peak is lost); colours of sky images; the film and its files (6·10⁻⁸; what is beyond is
-//! clamped and counted). On demand ([`shot::Precision::F32`]) also rays in rest frames, triangles and
-//! hits ([`trace::Stage::with_precision`] has their errors).
+//! clamped and counted).
 //!
 //! **What limits the rest**: coordinates. A worldline's origin that is rounded in the lab is off by
 //! γε of its distance in its own frame, and a rounded direction by γε within 1/γ of the motion; so
 //! links between frames are composed from relative celerities and never by way of the lab
 //! ([`relativity::Transform`]). docs/hard-cases.md is the measured card of all this.
 
+pub mod accel;
 pub mod cli;
 pub mod color;
 pub mod film;
+pub mod frame;
 pub mod image;
 pub mod model;
-pub mod plan;
 pub mod plot;
 pub mod probe;
+pub mod progress;
 pub mod queue;
 pub mod relativity;
 pub mod render;
@@ -73,5 +75,6 @@ pub mod sequence;
 pub mod shade;
 pub mod shot;
 pub mod spectrum;
+pub mod store;
 pub mod study;
 pub mod trace;

@@ -4,7 +4,7 @@
 //! it is the snapshot beside it. `INSTA_UPDATE=always cargo test --test suite bad_shots::` renews them.
 
 use proptest::prelude::*;
-use restframe::queue::Prepared;
+use restframe::render::Prepared;
 use restframe::shot::{Mistakes, load, parse};
 use std::fs;
 use std::path::{Path, PathBuf};

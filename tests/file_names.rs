@@ -1,6 +1,6 @@
 //! Names of files as other systems and people write them: each is read, or answered with what to write.
 use crate::common::WALL;
-use restframe::queue::Prepared;
+use restframe::render::Prepared;
 use restframe::shot::{Mistakes, load};
 use std::fs;
 use std::path::Path;

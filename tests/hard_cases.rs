@@ -6,6 +6,7 @@
 pub(crate) mod card;
 
 mod boosts;
+mod displacement;
 mod doppler;
 pub(crate) mod eye;
 mod file_lamps;

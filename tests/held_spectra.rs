@@ -1,16 +1,17 @@
 //! Lines and three numbers against the curves they stand for: where they agree, where they cannot,
 //! and how the error of lines falls with their spacing.
 use glam::DVec3;
+use restframe::accel::Hit;
 use restframe::color::cie;
-use restframe::plan;
-use restframe::queue::Prepared;
+use restframe::frame::{Frame, Sensor};
+use restframe::render::Prepared;
 use restframe::scene::sky::{SkyImage, Star, Stars};
 use restframe::scene::{Library, Scene};
 use restframe::shade::{Settings, ShadeScratch, Shader};
 use restframe::shot::{self, Beaming, SensorColor, Shot, Spectra, Switch};
 use restframe::spectrum::planck;
 use restframe::spectrum::uplift::HUE_ERROR;
-use restframe::trace::{BodyHit, Branch, DirectLight, Node, Root, Seen, ShadeTrees, Surface};
+use restframe::trace::{Branch, DirectLight, Node, Root, Seen, ShadeTrees, Surface};
 use std::path::Path;
 use std::sync::Arc;
 
@@ -92,16 +93,16 @@ fn scene() -> (Shot, Scene) {
     let text: String = MATERIALS.iter().map(wall).collect::<String>() + SHOT;
     let shot = shot::parse(&text, &folder.join("held.toml")).unwrap();
     let library = Library::load(&shot).unwrap();
-    let scene = Scene::resolve(&shot, &library, 1, None).unwrap();
+    let scene = Scene::resolve(&Frame::new(&shot, 1).unwrap(), &library, None).unwrap();
     (shot, scene)
 }
 
 fn shader(shot: &Shot, scene: &Scene) -> Shader {
-    let called = plan::called(shot, 1, &shot.effects).unwrap();
+    let called = Frame::new(shot, 1).unwrap().active_effects(&shot.effects);
     let settings = Settings {
         called: &called,
         accuracy: &shot.accuracy,
-        sensor: &shot.sensor,
+        sensor: &Sensor::new(&shot.sensor),
         reach: 3.0,
         lamp_reach: 3.0,
     };
@@ -203,7 +204,7 @@ fn seen(scene: &Scene, end: End, lamps: usize) -> Seen {
         return Seen::Sky(DVec3::NEG_Z);
     };
     let material = scene.materials.iter().position(|m| m.name == name).unwrap();
-    let hit = BodyHit {
+    let hit = Hit {
         t: 1.0,
         instance: 0,
         triangle: 0,

@@ -13,12 +13,13 @@ const ROOMS: &[&[&str]] = &[
     &["relativity", "color", "plot"],
     &["spectrum", "film"],
     &["shot", "image"],
-    &["model", "plan"],
-    &["scene"],
+    &["model", "frame"],
+    &["accel", "scene"],
     &["trace"],
     &["shade"],
     &["render"],
     &["probe"],
+    &["store", "progress"],
     &["queue"],
     &["sequence", "study"],
     &["cli"],
@@ -225,14 +226,14 @@ fn an_import_from_further_down_is_found_however_it_is_written() {
     for text in [
         "use crate::queue::FrameList;",
         "use crate::queue;",
-        "use crate::{plan, queue::{FrameList, Mode}};",
+        "use crate::{frame, queue::{FrameList, Mode}};",
         "use super::queue::FrameList;",
-        "use {std::fs, super::{plan, queue}};",
+        "use {std::fs, super::{frame, queue}};",
         "pub use crate::queue as q;",
         "fn f(_: &crate::queue::FrameList) {}",
         "fn f() { if true { crate::queue::options(); } }",
         "mod tests { use super::super::queue::Mode; }",
-        "mod tests { use super::super::{plan, queue}; }",
+        "mod tests { use super::super::{frame, queue}; }",
         "fn f() { println!(\"{}\", crate::queue::N) }",
         "#[cfg(test)] use crate::queue::Mode;",
         "impl From<f64> for crate::queue::Mode {}",
@@ -247,7 +248,7 @@ fn an_import_from_further_down_is_found_however_it_is_written() {
     }
     let deep = faults_of(
         "scene/model/obj.rs",
-        "//! A file.\nuse super::super::super::trace::Stage;",
+        "//! A file.\nuse super::super::super::trace::Tracer;",
     );
     assert_eq!(
         deep,
@@ -258,7 +259,7 @@ fn an_import_from_further_down_is_found_however_it_is_written() {
 #[test]
 fn what_is_no_import_from_another_room_is_none() {
     for text in [
-        "use crate::scene::Scene;\nuse super::{plan, scene::Scene};",
+        "use crate::scene::Scene;\nuse super::{frame, scene::Scene};",
         "/// See [`FrameList`](crate::queue::FrameList).\nfn f() {}",
         "// use crate::queue::Mode;\n/* crate::queue */",
         "const TEXT: &str = \"crate::queue::Mode\"; const RAW: &str = r#\"super::queue\"#;",
@@ -282,7 +283,7 @@ fn a_circle_between_two_rooms_is_found() {
     let file = |path: &str, text: &str| (path.to_owned(), format!("//! A room.\n{text}"));
     let circle = [
         file("trace/mod.rs", "use crate::shade::Shader;"),
-        file("shade/mod.rs", "use crate::trace::Stage;"),
+        file("shade/mod.rs", "use crate::trace::Tracer;"),
     ];
     assert!(
         faults(&circle).contains(

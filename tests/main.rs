@@ -46,7 +46,6 @@ mod sky;
 mod spheres;
 mod study;
 mod study_report;
-mod tracing_f32;
 mod window;
 
 #[test]

@@ -1,14 +1,15 @@
 //! Curves that are narrower than the wavelengths are apart keep their light, whatever meets them
 //! and under any shift: against `accuracy.spectra = "exact"`, and in closed form.
+use restframe::accel::Hit;
 use restframe::color::cie::{EFFICACY, xyz_bar};
-use restframe::plan;
+use restframe::frame::{Frame, Sensor};
 use restframe::scene::{
     Bsdf, Curve, Library, Lobe, LobeKind, Material, Reflectance, Scene, Thermal,
 };
 use restframe::shade::{Settings, ShadeScratch, Shader};
 use restframe::shot::{self, Accuracy, Shot, Spectra};
 use restframe::spectrum::{Beyond, Cardinal, Sampled, Spectrum, illuminant};
-use restframe::trace::{BodyHit, Branch, DirectLight, Node, Root, Seen, ShadeTrees, Surface};
+use restframe::trace::{Branch, DirectLight, Node, Root, Seen, ShadeTrees, Surface};
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
@@ -142,7 +143,7 @@ impl Wall {
         std::fs::write(folder.path().join("quad.obj"), quad).unwrap();
         let shot = shot::parse(SHOT, &folder.path().join("narrow.toml")).unwrap();
         let library = Library::load(&shot).unwrap();
-        let scene = Scene::resolve(&shot, &library, 1, None).unwrap();
+        let scene = Scene::resolve(&Frame::new(&shot, 1).unwrap(), &library, None).unwrap();
         Self { shot, scene }
     }
 
@@ -173,11 +174,13 @@ impl Wall {
         if let Some(lamp) = &light.lamp {
             self.scene.lights[0].spectrum = Arc::clone(lamp);
         }
-        let called = plan::called(&self.shot, 1, &self.shot.effects).unwrap();
+        let called = Frame::new(&self.shot, 1)
+            .unwrap()
+            .active_effects(&self.shot.effects);
         let settings = Settings {
             called: &called,
             accuracy: &accuracy,
-            sensor: &self.shot.sensor,
+            sensor: &Sensor::new(&self.shot.sensor),
             reach,
             lamp_reach: 1.0,
         };
@@ -190,7 +193,7 @@ impl Wall {
                 material: self.number(material),
                 s: 1.0,
                 time: 0.0,
-                hit: BodyHit {
+                hit: Hit {
                     t: 1.0,
                     instance: 0,
                     triangle: 0,
@@ -617,7 +620,7 @@ fn lines_are_kept_whatever_the_axis() {
 /// Both are combs of 1 nm all over the visible.
 #[test]
 fn check_tells_what_moving_lamps_with_bands_all_over_may_lose() {
-    use restframe::queue::Prepared;
+    use restframe::render::Prepared;
     use std::fmt::Write as _;
     let folder = tempfile::tempdir().unwrap();
     let mut comb = String::new();

@@ -2,10 +2,11 @@
 //! is more than text.
 use indexmap::IndexMap;
 use restframe::image::Metadata;
-use restframe::queue::{FileRecord, FrameList, Record, Reel, Request, Seconds, Stop};
-use restframe::sequence::page::{Outcome, RunFacts, write};
+use restframe::progress::FrameOutcome;
+use restframe::queue::Stop;
+use restframe::sequence::page::{Outcomes, write};
 use restframe::shot::parse;
-use std::collections::BTreeMap;
+use restframe::store::{FileRecord, Record, Request, Seconds, ShotFolder};
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -44,44 +45,43 @@ fn folder(name: &str) -> PathBuf {
     folder
 }
 
-fn reel(folder: &Path, file: &str, title: &str, frames: u32) -> Reel {
+fn shot_folder(folder: &Path, file: &str, title: &str, frames: u32) -> ShotFolder {
     let text = SHOT
         .replace("TITLE", title)
         .replace("FRAMES", &frames.to_string());
     let shot = parse(&text, &folder.join(file)).unwrap();
     let request = Request {
         out: folder.to_owned(),
-        frames: FrameList::all(),
         scale: 1.0,
         samples: None,
     };
-    Reel::open(&shot, &request).unwrap()
+    ShotFolder::open(&shot, &request).unwrap()
 }
 
 /// A picture unlike those of other frames, and hard to make small: noise on a hue.
-fn png(reel: &Reel, frame: u32) -> Vec<u8> {
+fn png(shot_folder: &ShotFolder, frame: u32) -> Vec<u8> {
     let mut state = frame;
     let image = image::RgbImage::from_fn(160, 90, |x, _| {
         state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
         image::Rgb([(state >> 24) as u8, (frame * 20) as u8, x as u8])
     });
     let metadata = Metadata {
-        fingerprint: Some(reel.keys.frame(frame).fingerprint),
+        fingerprint: Some(shot_folder.keys.frame(frame).fingerprint),
         ..Metadata::default()
     };
     restframe::image::png::encode(160, 90, image.as_raw(), &metadata).unwrap()
 }
 
 /// The record of a finished frame.
-fn record(reel: &Reel, frame: u32, bytes: u64) -> Record {
-    let key = reel.keys.frame(frame);
+fn record(shot_folder: &ShotFolder, frame: u32, bytes: u64) -> Record {
+    let key = shot_folder.keys.frame(frame);
     let time = |seconds: f64| seconds * (1.0 + f64::from(frame) / 12.0);
     Record {
         frame,
         fingerprint: key.fingerprint,
-        parts: key.parts,
+        parts: key.inputs,
         files: vec![FileRecord {
-            name: reel.names.frame(frame, "png"),
+            name: shot_folder.names.frame(frame, "png"),
             bytes,
             blake3: "0".repeat(64),
         }],
@@ -113,22 +113,32 @@ fn record(reel: &Reel, frame: u32, bytes: u64) -> Record {
 }
 
 /// Writes some frames and their manifest, as a finished run leaves them.
-fn finish(reel: &mut Reel, frames: &[u32]) {
-    fs::create_dir_all(&reel.folder).unwrap();
+fn finish(shot_folder: &mut ShotFolder, frames: &[u32]) {
+    fs::create_dir_all(&shot_folder.path).unwrap();
     let mut lines = String::new();
     for &frame in frames {
-        let bytes = png(reel, frame);
-        fs::write(reel.folder.join(reel.names.frame(frame, "png")), &bytes).unwrap();
-        let record = record(reel, frame, bytes.len() as u64);
+        let bytes = png(shot_folder, frame);
+        fs::write(
+            shot_folder.path.join(shot_folder.names.frame(frame, "png")),
+            &bytes,
+        )
+        .unwrap();
+        let record = record(shot_folder, frame, bytes.len() as u64);
         lines += &(serde_json::to_string(&record).unwrap() + "\n");
     }
-    fs::write(reel.folder.join(reel.names.manifest(None)), lines).unwrap();
-    reel.refresh().unwrap();
+    fs::write(
+        shot_folder.path.join(shot_folder.names.manifest(None)),
+        lines,
+    )
+    .unwrap();
+    shot_folder.refresh().unwrap();
 }
 
-fn page(reel: &Reel, run: &RunFacts) -> String {
-    let path = write(reel, run, &Stop::default()).unwrap().unwrap();
-    assert_eq!(path, reel.folder.join("index.html"));
+fn page(shot_folder: &ShotFolder, outcomes: &Outcomes) -> String {
+    let path = write(shot_folder, outcomes, &Stop::default())
+        .unwrap()
+        .unwrap();
+    assert_eq!(path, shot_folder.path.join("index.html"));
     fs::read_to_string(path).unwrap()
 }
 
@@ -141,23 +151,25 @@ fn row(page: &str, frame: u32) -> &str {
     rest.split_once("</tr>").unwrap().0
 }
 
-fn outcomes() -> BTreeMap<u32, Outcome> {
-    let because = |why: &str| why.to_owned();
-    let rendered = Outcome::Rendered {
-        because: because("it was missing"),
+fn outcomes() -> Outcomes {
+    let rendered = FrameOutcome::Rendered {
+        reason: Some("it was missing".to_owned()),
+        seconds: 0.2,
+        cut: 0.0,
     };
-    let failed = Outcome::Failed {
-        because: because("the disk is full"),
+    let kept = FrameOutcome::Kept { reason: None };
+    let failed = FrameOutcome::Failed {
+        reason: "the disk is full".to_owned(),
     };
-    BTreeMap::from([(1, rendered), (2, Outcome::Kept), (4, failed)])
+    Outcomes::from([(1, rendered), (2, kept), (4, failed)])
 }
 
 #[test]
 fn every_frame_is_there_or_accounted_for() {
     let folder = folder("states");
-    let mut reel = reel(&folder, "states.toml", "All kinds", 8);
-    finish(&mut reel, &[1, 2, 5, 6, 7, 8]);
-    let file = |frame| reel.folder.join(reel.names.frame(frame, "png"));
+    let mut shot_folder = shot_folder(&folder, "states.toml", "All kinds", 8);
+    finish(&mut shot_folder, &[1, 2, 5, 6, 7, 8]);
+    let file = |frame| shot_folder.path.join(shot_folder.names.frame(frame, "png"));
     // Of the length that the manifest has, and with a sound header, but no picture.
     let mut bytes = fs::read(file(6)).unwrap();
     let half = bytes.len() / 2;
@@ -166,10 +178,7 @@ fn every_frame_is_there_or_accounted_for() {
     let short = fs::read(file(7)).unwrap();
     fs::write(file(7), &short[..short.len() / 2]).unwrap();
     let short = format!("stale: states.0007.png has {} bytes", short.len() / 2);
-    let run = RunFacts {
-        outcomes: outcomes(),
-    };
-    let page = page(&reel, &run);
+    let page = page(&shot_folder, &outcomes());
     for (frame, state) in [
         (1, "rendered: it was missing"),
         (2, "kept"),
@@ -205,9 +214,9 @@ fn every_frame_is_there_or_accounted_for() {
 #[test]
 fn what_moves_stands_in_the_row_of_its_frame() {
     let folder = folder("facts");
-    let mut reel = reel(&folder, "facts.toml", "Facts", 12);
-    finish(&mut reel, &(1..=12).collect::<Vec<u32>>());
-    let page = page(&reel, &RunFacts::default());
+    let mut shot_folder = shot_folder(&folder, "facts.toml", "Facts", 12);
+    finish(&mut shot_folder, &(1..=12).collect::<Vec<u32>>());
+    let page = page(&shot_folder, &Outcomes::default());
     // In the last frame β is 0.8, γ 1/0.6, the material is at 5500 K and the clock at 1 s.
     for value in ["1", "0.8", "1.6667", "5500", "−6.25"] {
         let cell = format!("<td class=\"n\">{value}</td>");
@@ -222,7 +231,7 @@ fn what_moves_stands_in_the_row_of_its_frame() {
     assert_eq!(
         page,
         fs::read_to_string(
-            write(&reel, &RunFacts::default(), &Stop::default())
+            write(&shot_folder, &Outcomes::default(), &Stop::default())
                 .unwrap()
                 .unwrap()
         )
@@ -234,12 +243,12 @@ fn what_moves_stands_in_the_row_of_its_frame() {
 #[test]
 fn a_record_of_another_picture_is_not_told_of() {
     let folder = folder("older");
-    let mut reel = reel(&folder, "older.toml", "Older", 2);
-    finish(&mut reel, &[1, 2]);
-    let record = reel.records.get_mut(&2).unwrap();
+    let mut shot_folder = shot_folder(&folder, "older.toml", "Older", 2);
+    finish(&mut shot_folder, &[1, 2]);
+    let record = shot_folder.records.get_mut(&2).unwrap();
     record.fingerprint = "0".repeat(64);
     record.warnings = vec!["of the older one".to_owned()];
-    let page = page(&reel, &RunFacts::default());
+    let page = page(&shot_folder, &Outcomes::default());
     assert!(row(&page, 2).contains("<td>finished"), "{}", row(&page, 2));
     assert!(row(&page, 1).contains("−6.25") && !row(&page, 2).contains("−6.25"));
     assert!(!page.contains("of the older one"));
@@ -250,13 +259,13 @@ fn names_of_strangers_are_text_and_nothing_else() {
     let folder = folder("strange");
     let script = "<script>alert(1)</script>";
     let stem = "a#b?<script>alert(2)<&'\\\"x";
-    let mut reel = reel(&folder, &format!("{stem}.toml"), script, 2);
-    finish(&mut reel, &[1, 2]);
-    let sheet = reel.names.assembled("sheet.png");
-    fs::write(reel.folder.join(sheet), "").unwrap();
-    reel.records.get_mut(&1).unwrap().parts =
+    let mut shot_folder = shot_folder(&folder, &format!("{stem}.toml"), script, 2);
+    finish(&mut shot_folder, &[1, 2]);
+    let sheet = shot_folder.names.assembled("sheet.png");
+    fs::write(shot_folder.path.join(sheet), "").unwrap();
+    shot_folder.records.get_mut(&1).unwrap().parts =
         IndexMap::from([("<img src=x>".to_owned(), "\"onload=\"alert(3)".to_owned())]);
-    let page = page(&reel, &RunFacts::default());
+    let page = page(&shot_folder, &Outcomes::default());
     assert_eq!(page.matches("<script>").count(), 1, "the page's own");
     assert!(page.contains("&lt;script&gt;alert(1)&lt;/script&gt;: frames</title>"));
     assert!(!page.contains("<img src=x>") && !page.contains("\"onload=\""));
@@ -269,12 +278,12 @@ fn names_of_strangers_are_text_and_nothing_else() {
 #[test]
 fn what_is_assembled_is_linked_where_it_is_there() {
     let folder = folder("links");
-    let mut reel = reel(&folder, "links.toml", "Links", 1);
-    finish(&mut reel, &[1]);
-    assert!(!page(&reel, &RunFacts::default()).contains("<nav"));
-    fs::write(reel.folder.join("links.gif"), vec![0; 12_300]).unwrap();
-    fs::write(reel.folder.join("links.mp4"), vec![0; 2_000_000]).unwrap();
-    let page = page(&reel, &RunFacts::default());
+    let mut shot_folder = shot_folder(&folder, "links.toml", "Links", 1);
+    finish(&mut shot_folder, &[1]);
+    assert!(!page(&shot_folder, &Outcomes::default()).contains("<nav"));
+    fs::write(shot_folder.path.join("links.gif"), vec![0; 12_300]).unwrap();
+    fs::write(shot_folder.path.join("links.mp4"), vec![0; 2_000_000]).unwrap();
+    let page = page(&shot_folder, &Outcomes::default());
     for words in [
         "./links.gif\">GIF</a>",
         "12.3 kB",
@@ -289,16 +298,20 @@ fn what_is_assembled_is_linked_where_it_is_there() {
 #[test]
 fn a_page_of_a_thousand_noisy_frames_has_less_than_15_megabytes() {
     let folder = folder("thousand");
-    let mut reel = reel(&folder, "thousand.toml", "Thousand", 1000);
-    finish(&mut reel, &[1]);
-    let first = reel.folder.join(reel.names.frame(1, "png"));
+    let mut shot_folder = shot_folder(&folder, "thousand.toml", "Thousand", 1000);
+    finish(&mut shot_folder, &[1]);
+    let first = shot_folder.path.join(shot_folder.names.frame(1, "png"));
     let length = fs::metadata(&first).unwrap().len();
     for frame in 2..=1000 {
-        fs::hard_link(&first, reel.folder.join(reel.names.frame(frame, "png"))).unwrap();
-        let record = record(&reel, frame, length);
-        reel.records.insert(frame, record);
+        fs::hard_link(
+            &first,
+            shot_folder.path.join(shot_folder.names.frame(frame, "png")),
+        )
+        .unwrap();
+        let record = record(&shot_folder, frame, length);
+        shot_folder.records.insert(frame, record);
     }
-    let page = page(&reel, &RunFacts::default());
+    let page = page(&shot_folder, &Outcomes::default());
     fs::remove_dir_all(&folder).unwrap();
     assert_eq!(page.matches("data:image/jpeg").count(), 1000);
     assert!(page.len() < 15_000_000, "{} bytes", page.len());
@@ -307,8 +320,8 @@ fn a_page_of_a_thousand_noisy_frames_has_less_than_15_megabytes() {
 #[test]
 fn a_shot_without_a_folder_has_no_page_and_says_so() {
     let folder = folder("absent");
-    let reel = reel(&folder, "absent.toml", "Absent", 1);
-    let error = write(&reel, &RunFacts::default(), &Stop::default()).unwrap_err();
+    let shot_folder = shot_folder(&folder, "absent.toml", "Absent", 1);
+    let error = write(&shot_folder, &Outcomes::default(), &Stop::default()).unwrap_err();
     assert!(
         error.to_string().contains("must be an existing folder"),
         "{error}"

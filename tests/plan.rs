@@ -2,11 +2,12 @@
 
 use crate::common::WALL;
 use crate::common::desk::{Desk, Outcome};
+use restframe::frame::FrameFingerprint;
 use restframe::image;
 use restframe::image::Metadata;
-use restframe::plan::FrameKey;
-use restframe::queue::{Costs, FrameList, Names, Reel, Request};
+use restframe::queue::Costs;
 use restframe::shot;
+use restframe::store::{Names, Request, ShotFolder};
 use serde_json::{Value, json};
 use std::fs;
 use std::time::Instant;
@@ -51,37 +52,36 @@ fn json(desk: &Desk, arguments: &str) -> Value {
     serde_json::from_str(&told.stdout).unwrap()
 }
 
-fn reel(desk: &Desk) -> Reel {
+fn shot_folder(desk: &Desk) -> ShotFolder {
     let shot = shot::load(&desk.path("wall.toml")).unwrap();
     let request = Request {
         out: desk.path("renders"),
-        frames: FrameList::all(),
         scale: 1.0,
         samples: None,
     };
-    Reel::open(&shot, &request).unwrap()
+    ShotFolder::open(&shot, &request).unwrap()
 }
 
 /// Files and lines of the manifest as if these frames had been rendered, each in so many
 /// seconds: four parts tracing, one part shading.
 fn finish(desk: &Desk, frames: &[(u32, f64)]) {
-    let reel = self::reel(desk);
-    fs::create_dir_all(&reel.folder).unwrap();
+    let shot_folder = shot_folder(desk);
+    fs::create_dir_all(&shot_folder.path).unwrap();
     let lines: Vec<String> = frames
         .iter()
         .map(|&(frame, seconds)| {
-            let name = reel.names.frame(frame, "png");
-            let key = reel.keys.frame(frame);
-            fs::write(reel.folder.join(&name), picture(&key)).unwrap();
+            let name = shot_folder.names.frame(frame, "png");
+            let key = shot_folder.keys.frame(frame);
+            fs::write(shot_folder.path.join(&name), picture(&key)).unwrap();
             record(frame, &key, &name, seconds).to_string()
         })
         .collect();
-    let manifest = Names::new(reel.shot()).manifest(None);
-    fs::write(reel.folder.join(manifest), lines.join("\n")).unwrap();
+    let manifest = Names::new(shot_folder.shot()).manifest(None);
+    fs::write(shot_folder.path.join(manifest), lines.join("\n")).unwrap();
 }
 
 /// A picture of so many bytes that says what it is made of.
-fn picture(key: &FrameKey) -> Vec<u8> {
+fn picture(key: &FrameFingerprint) -> Vec<u8> {
     let metadata = |comments| Metadata {
         fingerprint: Some(key.fingerprint.clone()),
         comments,
@@ -95,9 +95,9 @@ fn picture(key: &FrameKey) -> Vec<u8> {
 /// Bytes of a picture.
 const BYTES: usize = 1000;
 
-fn record(frame: u32, key: &FrameKey, name: &str, seconds: f64) -> Value {
+fn record(frame: u32, key: &FrameFingerprint, name: &str, seconds: f64) -> Value {
     json!({
-        "frame": frame, "fingerprint": key.fingerprint, "parts": key.parts,
+        "frame": frame, "fingerprint": key.fingerprint, "parts": key.inputs,
         "files": [{"name": name, "bytes": BYTES, "blake3": ""}],
         "size": [64, 36], "samples": 4, "effects": ["thermal"], "trace": key.trace, "shared": 1,
         "exposure": 0.0,
@@ -241,13 +241,17 @@ fn another_shot_below_the_same_folder_is_better_than_a_guess() {
 #[test]
 fn what_is_learnt_while_rendering_mends_the_estimate() {
     let desk = wall();
-    let reel = reel(&desk);
-    let mut costs = Costs::new(&reel);
+    let shot_folder = shot_folder(&desk);
+    let mut costs = Costs::new(&shot_folder);
     let effects = ["thermal".to_owned()];
-    assert!(!costs.estimate(&effects, reel.keys.picture()).measured);
-    let record = record(1, &reel.keys.frame(1), "x.png", 5.0);
+    assert!(
+        !costs
+            .estimate(&effects, shot_folder.keys.resolution())
+            .measured
+    );
+    let record = record(1, &shot_folder.keys.frame(1), "x.png", 5.0);
     costs.learn(&serde_json::from_value(record).unwrap());
-    let seconds = costs.seconds(&effects, reel.keys.picture());
+    let seconds = costs.seconds(&effects, shot_folder.keys.resolution());
     assert!((seconds - 5.0).abs() < 1e-9, "{seconds}");
 }
 

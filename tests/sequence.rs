@@ -1,7 +1,11 @@
 //! Frames of one sequence: each is the same picture alone and after its neighbours.
-use restframe::queue::{Force, FrameList, Job, Mode, Night, Progress, Request, Results};
+use restframe::progress::{Event, FrameOutcome, Progress};
+use restframe::queue::{Force, Output, RenderedFrame, Run, Settings};
+use restframe::store::Request;
+use std::cell::RefCell;
 use std::fs;
 use std::path::Path;
+use std::sync::Mutex;
 use std::sync::atomic::AtomicBool;
 
 const QUAD: &str = "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nusemtl red\nf 1 2 3 4\n";
@@ -32,53 +36,97 @@ position = [0, 0, 3]
 exposure = 0
 "#;
 
-fn render(shot: &Path, frames: &[u32], out: &Path) {
+fn render(shot: &Path, frames: &str, out: &Path) {
     let shot = restframe::shot::load(shot).unwrap();
-    let request = Request {
-        out: out.to_owned(),
-        frames: FrameList::all(),
-        scale: 1.0,
-        samples: None,
-    };
-    let mut job = Job::open(&shot, &request, frames).unwrap();
-    job.prepare(Force::Yes).unwrap();
-    job.furnish(None);
-    let night = Night {
-        progress: &Progress::new(Mode::None, Results::Nothing),
-        stop: &AtomicBool::new(false),
+    let (progress, stop) = (Progress::silent(), AtomicBool::new(false));
+    let settings = Settings {
+        request: Request {
+            out: out.to_owned(),
+            ..Request::default()
+        },
+        frames: frames.parse().unwrap(),
         force: Force::Yes,
+        ..Settings::new(&progress, &stop)
     };
-    let mut jobs = [job];
-    night.render(&mut jobs, &mut |_| ());
-    assert_eq!(jobs[0].missing(), [0; 0]);
+    let mut run = Run::open(&[shot], settings).unwrap();
+    run.render_all();
+    assert_eq!(run.jobs()[0].missing(), [0; 0]);
+}
+
+/// The shot with its files, in a folder of its own.
+fn two(name: &str, from: &str, to: &str) -> std::path::PathBuf {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("sequence-{name}"));
+    let _ = fs::remove_dir_all(&folder);
+    fs::create_dir_all(&folder).unwrap();
+    for (side, color) in [("left", "0.9 0.1 0.1"), ("right", "0.1 0.1 0.9")] {
+        fs::write(
+            folder.join(format!("{side}.obj")),
+            format!("mtllib {side}.mtl\n{QUAD}"),
+        )
+        .unwrap();
+        fs::write(
+            folder.join(format!("{side}.mtl")),
+            format!("newmtl red\nKd {color}\n"),
+        )
+        .unwrap();
+    }
+    let shot = SHOT.replace("FROM", from).replace("TO", to);
+    fs::write(folder.join("two.toml"), shot).unwrap();
+    folder
 }
 
 #[test]
 fn a_frame_alone_is_the_frame_in_its_sequence_also_where_materials_come_to_look_alike() {
     for (name, from, to) in [("fading", "0.8", "0"), ("rising", "0", "0.8")] {
-        let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("sequence-{name}"));
-        fs::create_dir_all(&folder).unwrap();
-        for (side, color) in [("left", "0.9 0.1 0.1"), ("right", "0.1 0.1 0.9")] {
-            fs::write(
-                folder.join(format!("{side}.obj")),
-                format!("mtllib {side}.mtl\n{QUAD}"),
-            )
-            .unwrap();
-            fs::write(
-                folder.join(format!("{side}.mtl")),
-                format!("newmtl red\nKd {color}\n"),
-            )
-            .unwrap();
-        }
+        let folder = two(name, from, to);
         let shot = folder.join("two.toml");
-        fs::write(&shot, SHOT.replace("FROM", from).replace("TO", to)).unwrap();
         let (all, alone) = (folder.join("all"), folder.join("alone"));
-        render(&shot, &[1, 2, 3], &all);
+        render(&shot, "1-3", &all);
         for frame in 1..=3 {
-            render(&shot, &[frame], &alone);
+            render(&shot, &frame.to_string(), &alone);
             let file = format!("two/two.{frame:04}.png");
             let same = fs::read(all.join(&file)).unwrap() == fs::read(alone.join(&file)).unwrap();
             assert!(same, "{name}, frame {frame}");
         }
     }
+}
+
+#[test]
+fn a_run_to_memory_has_the_bytes_of_one_to_a_folder_and_leaves_no_file() {
+    let folder = two("memory", "0.8", "0.2");
+    let shot = folder.join("two.toml");
+    let (out, unused) = (folder.join("out"), folder.join("unused"));
+    render(&shot, "1-", &out);
+    let settled = Mutex::new(Vec::new());
+    let progress = Progress::to(|event: &Event<'_>| {
+        if let Event::Frame { frame, outcome, .. } = event {
+            assert!(matches!(outcome, FrameOutcome::Rendered { .. }));
+            settled.lock().unwrap().push(*frame);
+        }
+    });
+    let stop = AtomicBool::new(false);
+    let frames = RefCell::new(Vec::new());
+    let keep = |frame: RenderedFrame| frames.borrow_mut().push(frame);
+    let settings = Settings {
+        request: Request {
+            out: unused.clone(),
+            ..Request::default()
+        },
+        output: Output::Memory(&keep),
+        ..Settings::new(&progress, &stop)
+    };
+    let shot = restframe::shot::load(&shot).unwrap();
+    let mut run = Run::open(&[shot], settings).unwrap();
+    assert!(run.next_finished().is_some() && run.next_finished().is_none());
+    assert_eq!(*settled.lock().unwrap(), [1, 2, 3]);
+    for frame in frames.borrow().iter() {
+        let RenderedFrame { files, record, .. } = frame;
+        let (extension, bytes) = &files[0];
+        assert_eq!((files.len(), *extension), (1, "png"));
+        assert_eq!(record.files[0].name, format!("two.{:04}.png", frame.frame));
+        let same = fs::read(out.join("two").join(&record.files[0].name)).unwrap() == *bytes;
+        assert!(same, "frame {}", frame.frame);
+    }
+    assert_eq!(frames.borrow().len(), 3);
+    assert!(!unused.exists());
 }

@@ -1,10 +1,11 @@
 //! The short cut agrees with the long way: XYZ by tables and kernels against the sum over the
 //! spectral radiance of the same ray.
-use restframe::plan;
+use restframe::accel::Hit;
+use restframe::frame::{Frame, Sensor};
 use restframe::scene::{Library, Scene};
 use restframe::shade::{Settings, ShadeScratch, Shader};
 use restframe::shot::{self, SensorColor, Shot, Spectra};
-use restframe::trace::{BodyHit, DirectLight, Node, Root, Seen, ShadeTrees, Surface};
+use restframe::trace::{DirectLight, Node, Root, Seen, ShadeTrees, Surface};
 use std::path::Path;
 
 /// One material of every kind, three lamps; the wall moves, so every effect is called for.
@@ -59,16 +60,16 @@ fn shot(emissivity: &str) -> (Shot, Scene) {
     let text = SHOT.replace("EMISSIVITY", emissivity);
     let shot = shot::parse(&text, &folder.join("shading.toml")).unwrap();
     let library = Library::load(&shot).unwrap();
-    let scene = Scene::resolve(&shot, &library, 1, None).unwrap();
+    let scene = Scene::resolve(&Frame::new(&shot, 1).unwrap(), &library, None).unwrap();
     (shot, scene)
 }
 
 fn worst(shot: &Shot, scene: &Scene) -> f64 {
-    let called = plan::called(shot, 1, &shot.effects).unwrap();
+    let called = Frame::new(shot, 1).unwrap().active_effects(&shot.effects);
     let settings = Settings {
         called: &called,
         accuracy: &shot.accuracy,
-        sensor: &shot.sensor,
+        sensor: &Sensor::new(&shot.sensor),
         reach: 175.0,
         lamp_reach: 350.0,
     };
@@ -107,7 +108,7 @@ fn trees(doppler: f64, lamp_doppler: f64) -> ShadeTrees {
         doppler: lamp_doppler,
         first_weight: 2 * light,
     };
-    let hit = BodyHit {
+    let hit = Hit {
         t: 1.0,
         instance: 0,
         triangle: 0,

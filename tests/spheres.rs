@@ -4,13 +4,15 @@
 use crate::hard_cases::eye::{Eye, sphere, triangles};
 use crate::hard_cases::scene::Set;
 use glam::DVec3;
+use restframe::accel::Aggregate;
+use restframe::frame::Frame;
 use restframe::model::Mesh;
 use restframe::model::{Model, load};
 use restframe::render::View;
 use restframe::scene::{Geometry, Instance, Scene};
 use restframe::study::displacement::{Displacement, displacement_of_spheres};
 use restframe::study::spheres::{Sphere, spheres, tessellated};
-use restframe::trace::Stage;
+use restframe::trace::build_aggregate;
 use std::f64::consts::PI;
 use std::path::Path;
 use std::sync::Arc;
@@ -306,12 +308,17 @@ fn displaced(levels: &[u32]) -> Vec<Displacement> {
             geometry,
             ..original.clone()
         };
-        let stage = Stage::build(&scene.geometry, None);
+        let stage = build_aggregate(&scene.geometry, None);
         (scene, stage)
     };
     let finest = of(8);
-    let view = |of: &(Scene, Stage), look: &dyn Fn(&View<'_>) -> Displacement| {
-        look(&View::new(shot, 1, &shot.effects, &of.0, &of.1).unwrap())
+    let view = |of: &(Scene, Aggregate), look: &dyn Fn(&View<'_>) -> Displacement| {
+        look(&View::new(
+            &Frame::new(shot, 1).unwrap(),
+            &shot.effects,
+            &of.0,
+            &of.1,
+        ))
     };
     levels
         .iter()

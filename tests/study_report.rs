@@ -306,7 +306,7 @@ fn names_are_shown_as_they_are_written() {
     let title = page.descendants().find(|n| n.has_tag_name("h1")).unwrap();
     assert_eq!(words(title), AWKWARD);
     assert!(
-        words(section(&page, "sweep-2")).contains("against f64 & meshes of <twice> the fineness.")
+        words(section(&page, "sweep-2")).contains("against fine & meshes of <twice> the fineness.")
     );
 }
 

@@ -2,9 +2,9 @@
 
 mod read;
 
-use restframe::queue::Prepared;
+use restframe::accel::Aggregate;
+use restframe::render::Prepared;
 use restframe::scene::Scene;
-use restframe::trace::Stage;
 use std::path::Path;
 
 /// The shot with the shell at `beta` along x, the lamp on worldline `lamp`, and the given lines
@@ -14,7 +14,7 @@ pub(crate) fn shell(
     lamp: &str,
     effects: &str,
     accuracy: &str,
-) -> (Prepared, Scene, Stage) {
+) -> (Prepared, Scene, Aggregate) {
     let sphere = Path::new(env!("CARGO_MANIFEST_DIR")).join("assets/sphere.obj");
     let text = format!(
         r#"

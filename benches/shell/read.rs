@@ -1,17 +1,24 @@
 //! Shots of benches, read from text.
 
-use restframe::queue::Prepared;
+use restframe::accel::Aggregate;
+use restframe::frame::Frame;
+use restframe::render::Prepared;
 use restframe::scene::Scene;
-use restframe::trace::Stage;
+use restframe::trace::build_aggregate;
 use std::path::PathBuf;
 
 /// A shot, frame 1 of it and its bodies, from text.
-pub(crate) fn read(text: &str) -> (Prepared, Scene, Stage) {
+pub(crate) fn read(text: &str) -> (Prepared, Scene, Aggregate) {
     let path = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(format!("bench-{}.toml", id(text)));
     std::fs::write(&path, text).expect("the target folder can be written to");
     let prepared = Prepared::read(&path).expect("the shot has no mistake");
-    let scene = Scene::resolve(&prepared.shot, &prepared.library, 1, None).expect("it resolves");
-    let stage = Stage::build(&scene.geometry, None);
+    let scene = Scene::resolve(
+        &Frame::new(&prepared.shot, 1).expect("it moves"),
+        &prepared.library,
+        None,
+    )
+    .expect("it resolves");
+    let stage = build_aggregate(&scene.geometry, None);
     (prepared, scene, stage)
 }
 

@@ -1,17 +1,14 @@
-//! `restframe assemble`.
+//! `restframe assemble`: sheets, animations, video and page of finished frames.
 
-use super::finish::claim;
-use super::verify::{open, worse};
+use super::open::{Unopened, open, worse};
 use super::{Failed, FinishedArguments, failed, print, print_json, say};
-use crate::queue::{Reel, Stop, sweep};
-use crate::sequence::page::{self, RunFacts};
-use crate::sequence::{AssembleError, assemble};
+use crate::queue::Stop;
+use crate::sequence::{Assembled, assemble_all};
 use serde_json::json;
-use std::path::PathBuf;
 
-/// Assembles every shot; one that fails does not keep the others from it.
+/// Assembles every shot. If one fails, the others are still assembled.
 pub(super) fn run(arguments: &FinishedArguments) -> Result<(), Failed> {
-    // Asked to stop, there is nothing more to say.
+    // When the user asks to stop, no further message is needed.
     let stop = Stop::listen(|_| {})
         .map_err(|error| failed(&format!("cannot listen to signals: {error}")))?;
     let mut worst = None;
@@ -20,35 +17,25 @@ pub(super) fn run(arguments: &FinishedArguments) -> Result<(), Failed> {
         if stop.status().is_some() {
             break;
         }
-        let reel = match open(path, arguments) {
-            Ok(reel) => reel,
+        let shot_folder = match open(path, arguments) {
+            Ok(shot_folder) => shot_folder,
             Err(unopened) => {
                 reports.push(unopened.as_json(path));
                 worst = worse(worst, unopened.failed);
                 continue;
             }
         };
-        let shot = path.display();
-        let (made, failures) = if reel.folder.is_dir() {
-            // What a killed one left.
-            sweep(&reel.folder, &reel.names);
-            match claim(&reel) {
-                Ok(_claim) => make(&reel, &stop),
-                Err(unclaimed) => {
-                    reports.push(unclaimed.as_json(path));
-                    worst = worse(worst, unclaimed.failed);
-                    continue;
-                }
+        let assembled = assemble_all(&shot_folder, &|note| say(note), &stop);
+        let Assembled { made, failures } = match assembled {
+            Ok(assembled) => assembled,
+            Err(why) => {
+                let unclaimed = Unopened::say(&why);
+                reports.push(unclaimed.as_json(path));
+                worst = worse(worst, unclaimed.failed);
+                continue;
             }
-        } else {
-            let folder = reel.folder.display();
-            (
-                Vec::new(),
-                vec![format!(
-                    "there is no folder {folder}; render the shot first"
-                )],
-            )
         };
+        let shot = path.display();
         for failure in &failures {
             worst = worse(worst, failed(&format!("{shot}: {failure}")));
         }
@@ -74,21 +61,4 @@ pub(super) fn run(arguments: &FinishedArguments) -> Result<(), Failed> {
     }
     let worst = stop.status().map(Failed).or(worst);
     worst.map_or(Ok(()), Err)
-}
-
-/// What could be made, and why the rest could not.
-fn make(reel: &Reel, stop: &Stop) -> (Vec<PathBuf>, Vec<String>) {
-    let (mut made, mut failures) = match assemble(reel, &|note| say(note), stop) {
-        Ok(made) => (made, Vec::new()),
-        Err(AssembleError::Some { made, failures }) => (made, failures),
-        Err(AssembleError::Stopped) => return (Vec::new(), Vec::new()),
-        Err(error) => return (Vec::new(), vec![error.to_string()]),
-    };
-    if reel.shot().sequence.page {
-        match page::write(reel, &RunFacts::default(), stop) {
-            Ok(page) => made.extend(page),
-            Err(error) => failures.push(error.to_string()),
-        }
-    }
-    (made, failures)
 }

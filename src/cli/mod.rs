@@ -7,15 +7,18 @@
 mod answer;
 mod assemble;
 mod check;
-mod finish;
+mod open;
 mod plan;
 mod probe;
 mod render;
 mod study;
 mod verify;
 
-use crate::queue::{FrameList, Mode, Request, Shard};
+use crate::progress::Mode;
+use crate::queue::{FrameList, Shard};
+use crate::render::Prepared;
 use crate::shot::{self, Mistakes};
+use crate::store::Request;
 use clap::{Args, Parser, Subcommand};
 use std::io::{self, IsTerminal, Write};
 use std::path::PathBuf;
@@ -152,15 +155,18 @@ struct PictureArguments {
 }
 
 impl PictureArguments {
-    /// The request for these images of the listed frames, or of all.
-    fn request(&self, frames: Option<&FrameList>) -> Request {
+    fn request(&self) -> Request {
         Request {
             out: self.out.clone(),
-            frames: frames.cloned().unwrap_or_else(FrameList::all),
             scale: self.scale,
             samples: self.samples,
         }
     }
+}
+
+/// The listed frames, or every frame.
+fn frames(list: Option<&FrameList>) -> FrameList {
+    list.cloned().unwrap_or_else(FrameList::all)
 }
 
 #[derive(Debug, Args)]
@@ -279,7 +285,23 @@ fn mistaken(mistakes: &Mistakes) -> Failed {
     Failed(MISTAKE)
 }
 
-/// Prints a line to standard error. Failure to do so is ignored: there is nowhere left to report it.
+/// Prints warnings: content of the shot's files that the image will not show.
+fn warn(prepared: &Prepared) {
+    for warning in prepared.warnings() {
+        say(&format!("warning: {warning}"));
+    }
+}
+
+/// A pool of this many threads; 0 for one per processor.
+fn pool(threads: u16) -> Result<rayon::ThreadPool, Failed> {
+    rayon::ThreadPoolBuilder::new()
+        .num_threads(threads.into())
+        .build()
+        .map_err(|error| failed(&error.to_string()))
+}
+
+/// Prints a line to standard error. A failure to do so is ignored, since there is nowhere to report
+/// it.
 fn say(line: &str) {
     let _unheard = writeln!(io::stderr().lock(), "{line}");
 }

@@ -33,6 +33,24 @@ pub struct Developed {
 }
 
 /// Develops `film`: rgb = M · xyz / 100 · 2^stops, with M = [`Development::rgb_from_xyz`].
+///
+/// # Example
+/// One pixel of D65 white at 25 cd/m², brought to 1.0 by two stops.
+/// ```
+/// use restframe::color::spaces::{D65_XYZ, RGB_FROM_XYZ, encode};
+/// use restframe::film::{Development, Film, develop, to_rgb8};
+///
+/// let film = Film {
+///     width: 1,
+///     height: 1,
+///     xyz: vec![D65_XYZ.map(|value| (25.0 * value) as f32)],
+///     ..Film::default()
+/// };
+/// let development = Development { rgb_from_xyz: RGB_FROM_XYZ, exposure_stops: 2.0, encode };
+/// let developed = develop(&film, &development);
+/// assert!(developed.linear[0].iter().all(|value| (value - 1.0).abs() < 1e-6));
+/// assert_eq!(to_rgb8(&developed, encode), [255, 255, 255]);
+/// ```
 pub fn develop(film: &Film, development: &Development) -> Developed {
     // Kept finite: an infinite gain would turn black into NaN.
     let gain = (development.exposure_stops.exp2() / 100.0).min(f64::MAX);

@@ -11,6 +11,17 @@ use std::path::Path;
 ///
 /// # Errors
 /// A file that is missing, broken, empty, too large, or requires something that is not supported.
+///
+/// # Example
+/// ```
+/// use restframe::model;
+/// use std::path::Path;
+///
+/// let sphere = model::load(Path::new("assets/sphere.obj"), &[])?;
+/// assert_eq!(sphere.meshes.len(), 1);
+/// assert!((sphere.volume() - 4.18879).abs() < 0.1); // 4π/3, less the facets
+/// # Ok::<(), model::ModelError>(())
+/// ```
 pub fn load(path: &Path, may_read: &[&Path]) -> Result<Model, ModelError> {
     let extension = path
         .extension()

@@ -1,53 +1,59 @@
-//! Frames that are rendered together: those that share a trace, of whatever shots, as many as the
-//! memory is meant to hold.
+//! Frames of a run as tasks, and batches of those that are rendered together: tasks that share a
+//! trace, of whatever shots, as many as the memory is meant to hold.
 
-use super::job::Job;
-use super::reel::Glance;
-use crate::plan::Trace;
-use crate::render::{Options, film_bytes};
+use super::memory::most_together;
+use crate::frame::{FrameFingerprint, TraceKey};
+use crate::render::Options;
+use crate::store::{Claim, FileStamps, Status};
 
-/// Most memory for the films of a batch, bytes. A film of 1280 x 720 is 11 MiB: forty and more
-/// share a trace, which leaves a fortieth of it to each; of more, little would be gained, and all
-/// that a killed run was at work on is lost.
-const FILMS: u64 = 512 << 20;
-
-/// A frame to be rendered.
+/// A frame that was chosen.
 #[derive(Debug, Clone)]
-pub(super) struct Task {
-    /// Number of its job in the night.
+pub(super) struct FrameTask {
+    /// Number of its job in the run.
     pub(super) job: usize,
     pub(super) frame: u32,
-    pub(super) trace: Trace,
-    /// Why, if it was there before.
-    pub(super) because: Option<String>,
-    /// The folder as it was when that was judged.
-    pub(super) glance: Glance,
-    /// What it is expected to cost.
+    pub(super) trace: TraceKey,
+    pub(super) status: Status,
+    /// Its files as they were when `status` was judged; empty, where nothing was there.
+    pub(super) stamps: FileStamps,
+    /// What it is expected to cost, seconds.
     pub(super) work: f64,
 }
 
+impl FrameTask {
+    /// Why it is rendered, if it was there before.
+    pub(super) fn reason(&self) -> Option<String> {
+        match &self.status {
+            Status::Fresh => Some("fresh, rendered by --force".to_owned()),
+            Status::Missing => None,
+            Status::Stale { reason } => Some(format!("stale because {reason}")),
+        }
+    }
+}
+
+/// A frame that this process alone works on.
+pub(super) struct ClaimedFrame {
+    pub(super) task: FrameTask,
+    /// What the frame is made of.
+    pub(super) key: FrameFingerprint,
+    pub(super) claim: Claim,
+}
+
 /// Tasks in the order of work: by the first of each trace, tasks of one trace together, and so many
-/// at once as [`FILMS`] holds.
-pub(super) fn batches(tasks: Vec<Task>, jobs: &[Job]) -> Vec<Vec<Task>> {
+/// at once as memory is meant to hold. `options` are those of the jobs, by their numbers.
+pub(super) fn batches(tasks: Vec<FrameTask>, options: &[&Options]) -> Vec<Vec<FrameTask>> {
     // Equal traces of two shots may still want other layers.
-    let like = |job: &Job| jobs.iter().position(|other| other.options == job.options);
-    let layers: Vec<Option<usize>> = jobs.iter().map(like).collect();
-    let mut groups = indexmap::IndexMap::<_, Vec<Task>>::new();
+    let like = |one: &&Options| options.iter().position(|other| other == one);
+    let layers: Vec<Option<usize>> = options.iter().map(like).collect();
+    let mut groups = indexmap::IndexMap::<_, Vec<FrameTask>>::new();
     for task in tasks {
         let group = groups.entry((task.trace, layers[task.job]));
         group.or_default().push(task);
     }
     let mut batches = Vec::new();
     for tasks in groups.into_values() {
-        let most = most_together(&jobs[tasks[0].job].options);
-        batches.extend(tasks.chunks(most).map(<[Task]>::to_vec));
+        let most = most_together(options[tasks[0].job]);
+        batches.extend(tasks.chunks(most).map(<[FrameTask]>::to_vec));
     }
     batches
-}
-
-/// How many frames that share a trace are in work at once: at least one, and so many that their
-/// films take 512 MiB.
-pub fn most_together(options: &Options) -> usize {
-    let most = FILMS / film_bytes(options).max(1);
-    usize::try_from(most).unwrap_or(usize::MAX).max(1)
 }

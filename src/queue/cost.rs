@@ -4,12 +4,10 @@
 //! it was rendered with. A frame is judged by the mean rate of this shot's frames with the same
 //! effects, else of any of this shot, else of the other shots below the same folder, else by a guess.
 
-use super::manifest::{Record, read_records};
 use super::memory::image_bytes;
-use super::names::Names;
-use super::reel::Reel;
-use crate::plan::{Called, Picture};
-use crate::shot::{Beaming, Format, Shot};
+use crate::frame::{Frame, Resolution};
+use crate::shot::{Format, Shot};
+use crate::store::{Names, Record, ShotFolder, read_records};
 use std::collections::HashMap;
 use std::fs;
 use std::path::Path;
@@ -95,13 +93,16 @@ pub struct Costs {
 }
 
 impl Costs {
-    /// What the frames of a reel tell, or, where it has none, those in the folders beside its own.
+    /// What the frames of a shot tell, or, where it has none, those in the folders beside its own.
     /// A folder that cannot be read tells nothing.
-    pub fn new(reel: &Reel) -> Self {
+    pub fn new(shot_folder: &ShotFolder) -> Self {
         let mut costs = Self::default();
-        reel.records.values().for_each(|record| costs.learn(record));
-        if reel.records.is_empty()
-            && let Some(out) = reel.folder.parent()
+        shot_folder
+            .records
+            .values()
+            .for_each(|record| costs.learn(record));
+        if shot_folder.records.is_empty()
+            && let Some(out) = shot_folder.path.parent()
         {
             costs.learn_from_others(out);
         }
@@ -129,7 +130,7 @@ impl Costs {
     }
 
     /// What a frame of these effects and size will take.
-    pub fn estimate(&self, effects: &[String], picture: Picture) -> Estimate {
+    pub fn estimate(&self, effects: &[String], picture: Resolution) -> Estimate {
         let same = self.by_effects.get(effects).and_then(Mean::rate);
         let known = same
             .or_else(|| self.own.rate())
@@ -144,26 +145,14 @@ impl Costs {
     }
 
     /// Seconds that a frame of these effects and size will take on its own.
-    pub fn seconds(&self, effects: &[String], picture: Picture) -> f64 {
+    pub fn seconds(&self, effects: &[String], picture: Resolution) -> f64 {
         self.estimate(effects, picture).seconds()
     }
 }
 
-/// Names of the effects that are simulated, as [`Record::effects`] has them.
-pub fn effect_names(called: &Called) -> Vec<String> {
-    [
-        ("geometry", called.geometry),
-        ("doppler", called.doppler),
-        ("beaming", called.beaming != Beaming::Off),
-        ("thermal", called.thermal),
-        ("shadows", called.shadows),
-        ("mirror", called.mirror),
-        ("refraction", called.refraction),
-    ]
-    .into_iter()
-    .filter(|(_, is_on)| *is_on)
-    .map(|(name, _)| name.to_owned())
-    .collect()
+/// Names of the effects that are simulated in a frame; none in one that is refused.
+pub(super) fn active_names(shot: &Shot, frame: u32) -> Vec<String> {
+    Frame::new(shot, frame).map_or_else(|_| Vec::new(), |frame| frame.active_names())
 }
 
 fn rays([width, height]: [u32; 2], samples: u32) -> f64 {
@@ -185,10 +174,10 @@ fn rate_of(record: &Record) -> Option<Rate> {
 
 /// Bytes that the files of a frame take: as many as finished ones of this size on average, else by
 /// what pictures usually take.
-pub fn frame_bytes(reel: &Reel) -> u64 {
-    let picture = reel.keys.picture();
+pub fn frame_bytes(shot_folder: &ShotFolder) -> u64 {
+    let picture = shot_folder.keys.resolution();
     let alike = |record: &&Record| record.size == picture.size;
-    let sizes: Vec<u64> = reel
+    let sizes: Vec<u64> = shot_folder
         .records
         .values()
         .filter(alike)
@@ -207,7 +196,7 @@ pub fn frame_bytes(reel: &Reel) -> u64 {
     {
         return mean;
     }
-    let output = &reel.shot().output;
+    let output = &shot_folder.shot().output;
     let pixels = pixels(picture);
     let of_format = |format: &Format| match format {
         Format::Png => PNG_BYTES[0] * pixels + PNG_BYTES[1],
@@ -218,14 +207,14 @@ pub fn frame_bytes(reel: &Reel) -> u64 {
 
 /// Bytes of memory that rendering takes: the images of as many frames as are in work at once, on so
 /// many threads, and the meshes.
-pub fn memory_bytes(reel: &Reel, films: usize, threads: usize) -> u64 {
-    let meshes = MESH_FACTOR.saturating_mul(model_bytes(reel.shot()));
+pub fn memory_bytes(shot_folder: &ShotFolder, films: usize, threads: usize) -> u64 {
+    let meshes = MESH_FACTOR.saturating_mul(model_bytes(shot_folder.shot()));
     PROGRAM_BYTES
-        .saturating_add(image_bytes(&reel.options, films, threads))
+        .saturating_add(image_bytes(&shot_folder.options, films, threads))
         .saturating_add(meshes)
 }
 
-fn pixels(picture: Picture) -> u64 {
+fn pixels(picture: Resolution) -> u64 {
     picture.size.map(u64::from).iter().product()
 }
 

@@ -1,12 +1,39 @@
 //! Memory that images take: films as they are rendered together, and as they become files.
 
-use super::machine::free_memory_mib;
-use super::shots::RenderError;
 use crate::render::{Options, film_bytes};
+use crate::store::free_memory_mib;
+
+/// Most memory for the films of a batch, bytes. A film of 1280 x 720 is 11 MiB: forty and more
+/// share a trace, which leaves a fortieth of it to each; of more, little would be gained, and all
+/// that a killed run was at work on is lost.
+const FILMS: u64 = 512 << 20;
 
 /// Most memory for images that are developed and encoded at once, bytes. One of 3840 x 2160 takes
 /// 245 MiB, so that four threads are at work on such, and all threads on smaller ones.
 const DEVELOPED: u64 = 1 << 30;
+
+/// How many frames that share a trace are in work at once: at least one, and so many that their
+/// films take 512 MiB.
+pub fn most_together(options: &Options) -> usize {
+    let most = FILMS / film_bytes(options).max(1);
+    usize::try_from(most).unwrap_or(usize::MAX).max(1)
+}
+
+/// An image that does not fit into the free memory of this machine.
+#[derive(Debug, thiserror::Error)]
+#[error(
+    "{width} x {height} pixels need about {needed} MiB of memory and {free} MiB are free; render with a smaller --scale"
+)]
+pub struct TooLarge {
+    /// Pixels in a row.
+    width: u32,
+    /// Rows.
+    height: u32,
+    /// MiB needed.
+    needed: u64,
+    /// MiB free.
+    free: u64,
+}
 
 /// How many films are developed and encoded at once on so many threads, at least one.
 pub(super) fn most_developed(options: &Options, threads: usize) -> usize {
@@ -25,11 +52,11 @@ pub(super) fn image_bytes(options: &Options, films: usize, threads: usize) -> u6
 /// Refuses an image that this machine surely cannot hold, rather than be killed half-way.
 ///
 /// # Errors
-/// [`RenderError::Memory`].
-pub(super) fn check_memory(options: &Options) -> Result<(), RenderError> {
+/// What it needs and what is free.
+pub(super) fn check_memory(options: &Options) -> Result<(), TooLarge> {
     let needed = image_bytes(options, 1, 1) >> 20;
     match free_memory_mib() {
-        Some(free) if needed > free => Err(RenderError::Memory {
+        Some(free) if needed > free => Err(TooLarge {
             width: options.width,
             height: options.height,
             needed,

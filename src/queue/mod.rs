@@ -1,57 +1,34 @@
-//! The queue: which frames are rendered, how far they have come, and how they reach the disk.
+//! The queue: a run, which renders the frames of some shots in batches.
 //!
-//! In: shot files and the frame list of the command line ([`FrameList`]), which make the jobs of a
-//! night ([`Job`]). Out: files that are either whole or not there ([`write_atomically`]), a line of
-//! the manifest for each frame ([`Record`]), and news of the work ([`Progress`]).
+//! In: shots and what is asked of them ([`Settings`]). Out: pictures in the shots' folders or in memory
+//! ([`Output`]), what became of each frame ([`Job::outcomes`]), and events of the work
+//! ([`Progress`](crate::progress::Progress)). A [`Run`] hands out each shot as soon as nothing is left
+//! to do for it, so that its caller can go on with it.
 //!
-//! A frame is rendered if its files do not say that they are what they should be ([`Reel`]), by
-//! the one process that holds its claim ([`Claim`]). Which frames are rendered together, in what
-//! order, on how many threads and by how many processes, no byte of a picture tells.
+//! Pictures do not depend on batching, order, thread count or process count.
 
-mod bar;
 mod batch;
-mod because;
-mod claim;
 mod cost;
-mod deed;
-mod event;
+mod forecast;
 mod frames;
-mod inset;
 mod job;
-mod ledger;
-mod machine;
-mod manifest;
+mod jobs;
 mod memory;
-mod names;
-mod night;
-mod picture;
-mod plain;
-mod progress;
 mod record;
-mod reel;
+mod render_batch;
+mod run;
+mod settings;
 mod shard;
-mod shifts;
-mod shots;
 mod signals;
-mod work;
-mod write;
+mod write_batch;
 
-pub use batch::most_together;
-pub use claim::{Claim, sweep};
-pub use cost::{Costs, Estimate, effect_names, frame_bytes, memory_bytes};
-pub use deed::Deed;
+pub use cost::{Costs, Estimate, frame_bytes, memory_bytes};
+pub use forecast::{Forecast, FrameForecast, Totals};
 pub use frames::{FrameList, FrameListError, Resolved, list_of};
-pub use job::{Force, Job, choose_shard};
-pub use manifest::{FileRecord, Record, Seconds, read_records};
-pub use names::{ASSEMBLED, Names, SEQUENCE};
-pub use night::Night;
-pub use picture::{Pictures, Taken, pictures};
-pub use plain::open_plain;
-pub use progress::{Mode, Progress, Results};
-pub use record::frame_effects;
-pub use reel::{Glance, Reel, ReelError, Status};
+pub use job::Job;
+pub use jobs::{Contradiction, JobList};
+pub use memory::{TooLarge, most_together};
+pub use run::{Run, RunError};
+pub use settings::{Force, Output, RenderedFrame, Settings};
 pub use shard::{Shard, ShardError};
-pub use shifts::refuse_shifted_numbers;
-pub use shots::{Exposing, Prepared, RenderError, Request, options};
 pub use signals::Stop;
-pub use write::{explain, write_atomically};

@@ -2,7 +2,7 @@
 //!
 //! The first signal asks the work to stop; where it cannot in time (a model of gigabytes is being
 //! read, say), the process ends anyway, and a second signal ends it at once. What is finished
-//! stays, and nothing is torn ([`write_atomically`](super::write_atomically)).
+//! stays, and nothing is torn ([`write_atomically`](crate::store::write_atomically)).
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
@@ -30,6 +30,11 @@ impl Stop {
     /// True from the first signal on.
     pub fn asked(&self) -> &AtomicBool {
         &self.asked
+    }
+
+    /// Whether it was asked to stop.
+    pub fn is_asked(&self) -> bool {
+        self.asked.load(Ordering::Relaxed)
     }
 
     /// Exit status of a process that was asked to stop: 130 interrupted, 143 terminated.

@@ -195,3 +195,65 @@ impl Reflectance {
         self.weight > 0.0 && *self.spectrum != Spectrum::Constant(0.0)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn lobe(kind: LobeKind, weight: f64) -> Lobe {
+        let spectrum = Arc::new(Spectrum::Constant(1.0));
+        Lobe {
+            kind,
+            reflectance: Reflectance { weight, spectrum },
+        }
+    }
+
+    fn keys(bsdf: &Bsdf) -> Vec<&'static str> {
+        bsdf.lobes().iter().map(|lobe| lobe.kind.key()).collect()
+    }
+
+    #[test]
+    fn lobes_that_reflect_lamps_come_first_whatever_the_order_they_are_given_in() {
+        let glass = LobeKind::Refraction { ior: 1.5 };
+        let highlight = LobeKind::Highlight { exponent: 10.0 };
+        let kinds = [glass, LobeKind::Mirror, highlight, LobeKind::Diffuse];
+        let bsdf = Bsdf::new(kinds.map(|kind| lobe(kind, 0.2)).to_vec());
+        assert_eq!(
+            keys(&bsdf),
+            ["diffuse", "highlight", "mirror", "refraction"]
+        );
+        assert_eq!(bsdf.non_specular(), &bsdf.lobes()[..2]);
+        let only = Bsdf::new(vec![lobe(LobeKind::Mirror, 0.2), lobe(highlight, 0.2)]);
+        assert_eq!(only.non_specular(), &only.lobes()[..1]);
+        assert_eq!(only.mirror().map(|(position, _)| position), Some(1));
+    }
+
+    #[test]
+    fn a_lobe_replaces_the_one_of_its_kind() {
+        let bsdf = Bsdf::new(vec![lobe(LobeKind::Refraction { ior: 1.5 }, 1.0)]);
+        let bsdf = bsdf.with(lobe(LobeKind::Refraction { ior: 2.0 }, 0.5));
+        assert_eq!(bsdf.lobes(), [lobe(LobeKind::Refraction { ior: 2.0 }, 0.5)]);
+    }
+
+    #[test]
+    fn a_boundary_that_transmits_nothing_stays_beside_a_mirror_alone() {
+        let black = lobe(LobeKind::Refraction { ior: 1.5 }, 0.0);
+        let mirror = |weight| lobe(LobeKind::Mirror, weight);
+        let beside = |weight| Bsdf::new(vec![black.clone(), mirror(weight)]).pruned();
+        assert_eq!(keys(&beside(0.5)), ["mirror", "refraction"]);
+        assert_eq!(keys(&beside(0.0)), [""; 0]);
+    }
+
+    /// Head-on, where N·H = 1: ρE/π of a diffuse lobe, ρE(n+8)/(8π) of a highlight, nothing of a
+    /// mirror; at right angles to H, a highlight of n > 0 reflects nothing.
+    #[test]
+    fn lobes_reflect_by_their_formulas() {
+        let [z, x] = [DVec3::Z, DVec3::X];
+        let head_on = |kind| lobe(kind, 1.0).reflected(3.0, z, z, z);
+        assert_eq!(head_on(LobeKind::Diffuse), 3.0 / PI);
+        let highlight = LobeKind::Highlight { exponent: 16.0 };
+        assert!((head_on(highlight) - 3.0 * 24.0 / (8.0 * PI)).abs() < 1e-15);
+        assert_eq!(head_on(LobeKind::Mirror), 0.0);
+        assert_eq!(lobe(highlight, 1.0).reflected(3.0, z, x, x), 0.0);
+    }
+}

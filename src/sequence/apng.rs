@@ -1,27 +1,27 @@
 //! An animated PNG: every frame with all its colours. W3C, Portable Network Graphics (Third
 //! Edition), 2025: acTL, fcTL, fdAT.
 
-use super::draft::{Draft, Pen};
-use super::still::Still;
-use super::target::Target;
+use super::frame_image::FrameImage;
+use super::output::Encoder;
+use crate::store::{AtomicFile, AtomicWriter};
 use std::path::PathBuf;
 
 /// An animation in the making.
 pub(super) struct Apng {
-    draft: Draft,
-    writer: png::Writer<Pen>,
+    file: AtomicFile,
+    writer: png::Writer<AtomicWriter>,
 }
 
 impl Apng {
     /// Begins one of so many frames, `rate` of them a second as a fraction; it plays forever.
     pub(super) fn new(
-        draft: Draft,
+        file: AtomicFile,
         [width, height]: [u32; 2],
         frames: u32,
         rate: (i32, u32),
     ) -> Result<Self, String> {
         let begin = || -> Result<_, png::EncodingError> {
-            let mut encoder = png::Encoder::new(draft.pen(), width, height);
+            let mut encoder = png::Encoder::new(file.writer(), width, height);
             encoder.set_color(png::ColorType::Rgb);
             encoder.set_depth(png::BitDepth::Eight);
             encoder.set_source_srgb(png::SrgbRenderingIntent::RelativeColorimetric);
@@ -31,20 +31,20 @@ impl Apng {
             encoder.write_header()
         };
         let writer = begin().map_err(|error| error.to_string())?;
-        Ok(Self { draft, writer })
+        Ok(Self { file, writer })
     }
 }
 
-impl Target for Apng {
-    fn add(&mut self, _: u32, still: &Still) -> Result<(), String> {
+impl Encoder for Apng {
+    fn add(&mut self, _: u32, image: &FrameImage) -> Result<(), String> {
         self.writer
-            .write_image_data(&still.rgb8)
+            .write_image_data(&image.rgb8)
             .map_err(|error| error.to_string())
     }
 
     fn finish(self: Box<Self>) -> Result<PathBuf, String> {
         self.writer.finish().map_err(|error| error.to_string())?;
-        self.draft.keep().map_err(|error| error.to_string())
+        self.file.keep().map_err(|error| error.to_string())
     }
 }
 

@@ -4,21 +4,20 @@
 //! picture a thread, a row of the sheet and a palette, however long the sequence is.
 
 use super::apng::Apng;
-use super::draft::Draft;
-use super::finding::{Finding, Kind};
+use super::findings::{Finding, Kind};
+use super::frame_image::{self, FrameImage, FrameImageError};
+use super::freshness;
 use super::gif::{self, Gif};
-use super::ledger;
-use super::output::Output;
+use super::output::{Encoder, Output};
 use super::palette::Palette;
-use super::parts::Parts;
 use super::sheet::{self, Sheet};
-use super::still::{self, Still, StillError};
-use super::target::Target;
-use super::verify::{is_asked, verify_until};
+use super::splices::Splices;
+use super::verify::verify_until;
 use super::video::{self, Video};
 use crate::image::rational_rate;
-use crate::queue::{Reel, ReelError, Status, Stop};
+use crate::queue::Stop;
 use crate::shot::Shot;
+use crate::store::{AtomicFile, FolderError, ShotFolder, Status};
 use rayon::prelude::*;
 use std::path::PathBuf;
 
@@ -36,10 +35,10 @@ pub enum AssembleError {
     Refused(Vec<Finding>),
     /// A frame that was sound a moment ago.
     #[error("nothing is assembled: {0}")]
-    Still(#[from] StillError),
+    FrameImage(#[from] FrameImageError),
     /// The folder cannot be read.
     #[error(transparent)]
-    Reel(#[from] ReelError),
+    Folder(#[from] FolderError),
     /// It was asked to stop. What was made until then is whole.
     #[error("stopped")]
     Stopped,
@@ -70,11 +69,16 @@ fn quoted(findings: &[Finding]) -> String {
 /// # Errors
 /// When a frame is missing or wrong nothing is made; when a file cannot be made the others are.
 pub fn assemble(
-    reel: &Reel,
+    shot_folder: &ShotFolder,
     notes: &dyn Fn(&str),
     stop: &Stop,
 ) -> Result<Vec<PathBuf>, AssembleError> {
-    make(reel, &Output::of(&reel.shot().sequence), notes, stop)
+    make(
+        shot_folder,
+        &Output::of(&shot_folder.shot().sequence),
+        notes,
+        stop,
+    )
 }
 
 /// Assembles, at the end of a shot's rendering, what is not there or is of other frames; nothing
@@ -84,33 +88,34 @@ pub fn assemble(
 /// # Errors
 /// As [`assemble`].
 pub fn finish(
-    reel: &mut Reel,
+    shot_folder: &mut ShotFolder,
     notes: &dyn Fn(&str),
     stop: &Stop,
 ) -> Result<Vec<PathBuf>, AssembleError> {
-    reel.refresh()?;
-    make(reel, &outstanding(reel), notes, stop)
+    shot_folder.refresh()?;
+    make(shot_folder, &outstanding(shot_folder), notes, stop)
 }
 
 /// Whether [`finish`] would find nothing to make.
-pub fn is_finished(reel: &Reel) -> bool {
-    outstanding(reel).is_empty()
+pub fn is_finished(shot_folder: &ShotFolder) -> bool {
+    outstanding(shot_folder).is_empty()
 }
 
 /// What is asked for and not there, if it can be made.
-fn outstanding(reel: &Reel) -> Vec<Output> {
-    let mut outputs = Output::of(&reel.shot().sequence);
-    outputs.retain(|output| !ledger::is_fresh(reel, *output));
-    if !outputs.is_empty() && !is_rendered(reel) {
+fn outstanding(shot_folder: &ShotFolder) -> Vec<Output> {
+    let mut outputs = Output::of(&shot_folder.shot().sequence);
+    outputs.retain(|output| !freshness::is_fresh(shot_folder, *output));
+    if !outputs.is_empty() && !is_rendered(shot_folder) {
         outputs.clear();
     }
     outputs
 }
 
 /// Whether all frames are there as they should be.
-fn is_rendered(reel: &Reel) -> bool {
-    let (there, frames) = (reel.there(), reel.shot().shot.frames);
-    let fresh = |frame: &u32| reel.status(*frame, &reel.keys.frame(*frame)) == Status::Fresh;
+fn is_rendered(shot_folder: &ShotFolder) -> bool {
+    let (there, frames) = (shot_folder.there(), shot_folder.shot().shot.frames);
+    let fresh =
+        |frame: &u32| shot_folder.status(*frame, &shot_folder.keys.frame(*frame)) == Status::Fresh;
     there.len() as u64 == u64::from(frames) && there.par_iter().all(fresh)
 }
 
@@ -118,12 +123,12 @@ fn is_rendered(reel: &Reel) -> bool {
 /// first is rendered.
 pub fn foreseen(shot: &Shot, size: [u32; 2]) -> Option<String> {
     shot.sequence.sheet?;
-    let parts = Parts::new(shot, size);
-    sheet::layout(shot, &parts).err()
+    let splices = Splices::new(shot, size);
+    sheet::layout(shot, &splices).err()
 }
 
 fn make(
-    reel: &Reel,
+    shot_folder: &ShotFolder,
     outputs: &[Output],
     notes: &dyn Fn(&str),
     stop: &Stop,
@@ -131,7 +136,7 @@ fn make(
     if outputs.is_empty() {
         return Ok(Vec::new());
     }
-    let report = verify_until(reel, stop).ok_or(AssembleError::Stopped)?;
+    let report = verify_until(shot_folder, stop).ok_or(AssembleError::Stopped)?;
     let (forbidding, others): (Vec<Finding>, Vec<Finding>) = report
         .findings
         .into_iter()
@@ -143,8 +148,8 @@ fn make(
         notes(&format!("warning: {finding}"));
     }
     let making = Making {
-        reel,
-        parts: Parts::new(reel.shot(), reel.keys.picture().size),
+        shot_folder,
+        splices: Splices::new(shot_folder.shot(), shot_folder.keys.resolution().size),
         notes,
         stop,
     };
@@ -153,13 +158,13 @@ fn make(
 
 /// A pass over the frames.
 struct Making<'a> {
-    reel: &'a Reel,
-    parts: Parts,
+    shot_folder: &'a ShotFolder,
+    splices: Splices,
     notes: &'a dyn Fn(&str),
     stop: &'a Stop,
 }
 
-type Begun = (Output, Result<Box<dyn Target>, String>);
+type Begun = (Output, Result<Box<dyn Encoder>, String>);
 
 impl Making<'_> {
     fn run(&self, outputs: &[Output]) -> Result<Vec<PathBuf>, AssembleError> {
@@ -173,13 +178,13 @@ impl Making<'_> {
         let mut made = Vec::new();
         let mut failures = Vec::new();
         for (output, target) in begun {
-            let finished = target.and_then(Target::finish);
+            let finished = target.and_then(Encoder::finish);
             // What was stopped has not failed.
             self.go_on()?;
             match finished {
                 Ok(path) => {
                     made.push(path);
-                    if let Err(error) = ledger::remember_output(self.reel, output) {
+                    if let Err(error) = freshness::remember_output(self.shot_folder, output) {
                         (self.notes)(&format!(
                             "warning: {} will be made again: {error}",
                             self.name(output)
@@ -197,14 +202,14 @@ impl Making<'_> {
     }
 
     fn go_on(&self) -> Result<(), AssembleError> {
-        if is_asked(self.stop) {
+        if self.stop.is_asked() {
             return Err(AssembleError::Stopped);
         }
         Ok(())
     }
 
     fn name(&self, output: Output) -> String {
-        self.reel.names.assembled(output.suffix())
+        self.shot_folder.names.assembled(output.suffix())
     }
 
     /// Begins one file.
@@ -212,18 +217,24 @@ impl Making<'_> {
         &self,
         output: Output,
         palette: &mut Option<Palette>,
-    ) -> Result<Box<dyn Target>, String> {
-        let shot = self.reel.shot();
+    ) -> Result<Box<dyn Encoder>, String> {
+        let shot = self.shot_folder.shot();
         let (frames, fps) = (shot.shot.frames, shot.shot.fps);
-        let size = self.parts.shown_size();
+        let size = self.splices.shown_size();
         let name = self.name(output);
-        let draft = Draft::new(&self.reel.folder, &name).map_err(|error| error.to_string())?;
+        let file = AtomicFile::create(&self.shot_folder.path.join(&name))
+            .map_err(|error| error.to_string())?;
         let rate = || {
             let found = rational_rate(fps);
             found.ok_or_else(|| format!("shot.fps is {fps}; give one from 0.001 to 1000"))
         };
         Ok(match output {
-            Output::Sheet => Box::new(Sheet::new(draft, self.reel, &self.parts, self.notes)?),
+            Output::Sheet => Box::new(Sheet::new(
+                file,
+                self.shot_folder,
+                &self.splices,
+                self.notes,
+            )?),
             Output::Gif => {
                 if fps > gif::FASTEST {
                     (self.notes)(&format!(
@@ -231,9 +242,9 @@ impl Making<'_> {
                     ));
                 }
                 let palette = palette.take().unwrap_or_else(|| Palette::new([]));
-                Box::new(Gif::new(draft, size, fps, palette)?)
+                Box::new(Gif::new(file, size, fps, palette)?)
             }
-            Output::Apng => Box::new(Apng::new(draft, size, frames, rate()?)?),
+            Output::Apng => Box::new(Apng::new(file, size, frames, rate()?)?),
             Output::Video(kind) => {
                 let [width, height] = video::even(size);
                 if [width, height] != size {
@@ -241,41 +252,43 @@ impl Making<'_> {
                         "{name} is padded to {width} x {height} pixels: videos have even sides"
                     ));
                 }
-                Box::new(Video::new(draft, kind, size, frames, rate()?, self.stop)?)
+                Box::new(Video::new(file, kind, size, frames, rate()?, self.stop)?)
             }
         })
     }
 
     /// The colours of the sequence, by some of its frames.
     fn palette(&self) -> Result<Palette, AssembleError> {
-        let frames = self.reel.shot().shot.frames;
+        let frames = self.shot_folder.shot().shot.frames;
         let step = frames.div_ceil(gif::SAMPLED_FRAMES).max(1);
         let mut samples = Vec::new();
         for frame in (1..=frames).step_by(step as usize) {
             self.go_on()?;
-            let still = self.parts.arrange(still::read(self.reel, frame)?);
-            samples.extend(gif::sample(&still, frames));
+            let image = self
+                .splices
+                .arrange(frame_image::read(self.shot_folder, frame)?);
+            samples.extend(gif::sample(&image, frames));
         }
         Ok(Palette::new(samples))
     }
 
     /// Hands every frame to every file that has not failed.
     fn feed(&self, begun: &mut [Begun]) -> Result<(), AssembleError> {
-        let numbers: Vec<u32> = (1..=self.reel.shot().shot.frames).collect();
-        let (reel, parts) = (self.reel, &self.parts);
+        let numbers: Vec<u32> = (1..=self.shot_folder.shot().shot.frames).collect();
+        let (shot_folder, splices) = (self.shot_folder, &self.splices);
         for some in numbers.chunks(rayon::current_num_threads().max(1)) {
             self.go_on()?;
             if begun.iter().all(|(_, target)| target.is_err()) {
                 break;
             }
-            let stills: Vec<Result<Still, StillError>> = some
+            let images: Vec<Result<FrameImage, FrameImageError>> = some
                 .par_iter()
-                .map(|frame| Ok(parts.arrange(still::read(reel, *frame)?)))
+                .map(|frame| Ok(splices.arrange(frame_image::read(shot_folder, *frame)?)))
                 .collect();
-            for (frame, still) in some.iter().zip(stills) {
-                let still = still?;
+            for (frame, image) in some.iter().zip(images) {
+                let image = image?;
                 for (_, target) in begun.iter_mut() {
-                    let taken = target.as_mut().map(|target| target.add(*frame, &still));
+                    let taken = target.as_mut().map(|target| target.add(*frame, &image));
                     if let Ok(Err(why)) = taken {
                         *target = Err(why);
                     }

@@ -1,10 +1,10 @@
 //! An animated GIF: 256 colours, one palette for all frames. CompuServe, GIF89a (1990); loops by the
 //! Netscape 2.0 extension.
 
-use super::draft::{Draft, Pen};
+use super::frame_image::FrameImage;
+use super::output::Encoder;
 use super::palette::Palette;
-use super::still::Still;
-use super::target::Target;
+use crate::store::{AtomicFile, AtomicWriter};
 use std::path::PathBuf;
 
 /// Most frames a second that viewers show: faster ones they slow to 10.
@@ -18,16 +18,16 @@ const SAMPLED_PIXELS: usize = 1 << 19;
 
 /// An animation in the making.
 pub(super) struct Gif {
-    draft: Draft,
-    encoder: gif::Encoder<Pen>,
+    file: AtomicFile,
+    encoder: gif::Encoder<AtomicWriter>,
     palette: Palette,
     size: [u16; 2],
     fps: f64,
 }
 
 /// Every so many pixels of a picture that stands for `frames`.
-pub(super) fn sample(still: &Still, frames: u32) -> impl Iterator<Item = [u8; 3]> + '_ {
-    let pixels = still.rgb8.as_chunks::<3>().0;
+pub(super) fn sample(image: &FrameImage, frames: u32) -> impl Iterator<Item = [u8; 3]> + '_ {
+    let pixels = image.rgb8.as_chunks::<3>().0;
     let most = SAMPLED_PIXELS / frames.clamp(1, SAMPLED_FRAMES) as usize;
     // Odd, so that it does not keep to a few columns of an even width.
     let step = pixels.len().div_ceil(most.max(1)) | 1;
@@ -37,7 +37,7 @@ pub(super) fn sample(still: &Still, frames: u32) -> impl Iterator<Item = [u8; 3]
 impl Gif {
     /// Begins one of frames of a size, `fps` of them a second; it plays forever.
     pub(super) fn new(
-        draft: Draft,
+        file: AtomicFile,
         size: [u32; 2],
         fps: f64,
         palette: Palette,
@@ -49,13 +49,13 @@ impl Gif {
             ));
         };
         let begin = || {
-            let mut encoder = gif::Encoder::new(draft.pen(), width, height, &palette.bytes())?;
+            let mut encoder = gif::Encoder::new(file.writer(), width, height, &palette.bytes())?;
             encoder.set_repeat(gif::Repeat::Infinite)?;
             Ok(encoder)
         };
         let encoder = begin().map_err(|error: gif::EncodingError| error.to_string())?;
         Ok(Self {
-            draft,
+            file,
             encoder,
             palette,
             size: [width, height],
@@ -64,10 +64,10 @@ impl Gif {
     }
 }
 
-impl Target for Gif {
-    fn add(&mut self, frame: u32, still: &Still) -> Result<(), String> {
+impl Encoder for Gif {
+    fn add(&mut self, frame: u32, image: &FrameImage) -> Result<(), String> {
         let [width, height] = self.size;
-        let indices = self.palette.map(&still.rgb8, usize::from(width));
+        let indices = self.palette.map(&image.rgb8, usize::from(width));
         let frame = gif::Frame {
             width,
             height,
@@ -82,7 +82,7 @@ impl Target for Gif {
     fn finish(self: Box<Self>) -> Result<PathBuf, String> {
         let written = self.encoder.into_inner();
         written.map_err(|error| error.to_string())?;
-        self.draft.keep().map_err(|error| error.to_string())
+        self.file.keep().map_err(|error| error.to_string())
     }
 }
 

@@ -1,6 +1,8 @@
-//! What can be assembled of a shot's frames.
+//! What can be assembled of a shot's frames, and what each kind of file does with them.
 
+use super::frame_image::FrameImage;
 use crate::shot::{Sequence, Video};
+use std::path::PathBuf;
 
 /// One thing that is assembled, a file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -68,10 +70,20 @@ impl Output {
     }
 }
 
+/// An encoder of one file, which takes frames one after the other. Dropped before its end it leaves
+/// no file. Errors continue "FILE: ".
+pub(super) trait Encoder {
+    /// Takes the next frame, of the number given.
+    fn add(&mut self, frame: u32, image: &FrameImage) -> Result<(), String>;
+
+    /// Gives the file its name; returns its path.
+    fn finish(self: Box<Self>) -> Result<PathBuf, String>;
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::queue::ASSEMBLED;
+    use crate::store::ASSEMBLED;
 
     /// Else what a killed run leaves of it is not swept.
     #[test]

@@ -4,16 +4,14 @@
 //! A cell is the frame, reduced in linear light to the width that the shot gives and never
 //! enlarged, and its caption below.
 
-use super::draft::{Draft, Pen};
-use super::parts::Parts;
-use super::reduce::reduce;
-use super::still::Still;
-use super::target::Target;
-use crate::plan::facts;
+use super::frame_image::{FrameImage, reduce};
+use super::output::Encoder;
+use super::splices::Splices;
+use crate::frame::Caption;
 use crate::plot::escaped;
 use crate::plot::raster;
-use crate::queue::Reel;
 use crate::shot::{LARGEST_SIDE, MOST_COLUMNS, Shot};
+use crate::store::{AtomicFile, AtomicWriter, ShotFolder};
 use std::io::{self, Write};
 use std::path::PathBuf;
 
@@ -107,48 +105,54 @@ impl Layout {
 ///
 /// # Errors
 /// Where it cannot be held.
-pub(super) fn layout(shot: &Shot, parts: &Parts) -> Result<Layout, String> {
+pub(super) fn layout(shot: &Shot, splices: &Splices) -> Result<Layout, String> {
     let asked = shot.sequence.sheet.unwrap_or_default();
-    let lines = if parts.iter().count() > 1 { 2 } else { 1 };
+    let lines = if splices.iter().count() > 1 { 2 } else { 1 };
     let (columns, width) = (asked.columns, asked.width);
-    Layout::fitting(shot.shot.frames, columns, width, parts.shown_size(), lines)
+    Layout::fitting(
+        shot.shot.frames,
+        columns,
+        width,
+        splices.shown_size(),
+        lines,
+    )
 }
 
 /// A sheet in the making.
 pub(super) struct Sheet {
-    draft: Draft,
-    writer: png::StreamWriter<'static, Pen>,
+    file: AtomicFile,
+    writer: png::StreamWriter<'static, AtomicWriter>,
     layout: Layout,
     captions: Vec<Vec<(u32, String)>>,
     /// Reduced frames of the row that fills.
-    row: Vec<Still>,
+    row: Vec<FrameImage>,
 }
 
 impl Sheet {
-    /// Begins one of a reel's frames, shown by their parts.
+    /// Begins one of a shot's frames, shown by their splices.
     pub(super) fn new(
-        draft: Draft,
-        reel: &Reel,
-        parts: &Parts,
+        file: AtomicFile,
+        shot_folder: &ShotFolder,
+        splices: &Splices,
         notes: &dyn Fn(&str),
     ) -> Result<Self, String> {
-        let shot = reel.shot();
+        let shot = shot_folder.shot();
         let asked = shot.sequence.sheet.unwrap_or_default();
         let frames = shot.shot.frames;
-        let shown = parts.shown_size();
-        let layout = layout(shot, parts)?;
+        let shown = splices.shown_size();
+        let layout = layout(shot, splices)?;
         if layout.picture[0] < asked.width.min(shown[0]) {
             notes(&format!(
                 "{}: frames are {} pixels wide, not {}, since a sheet has at most {LARGEST_SIDE} a side",
-                reel.names.assembled("sheet.png"),
+                shot_folder.names.assembled("sheet.png"),
                 layout.picture[0],
                 asked.width
             ));
         }
         let captions = (1..=frames).map(|frame| {
-            let told = facts(shot, frame).map_or_else(|e| e.to_string(), |f| f.caption());
-            let step = layout.picture[0] / parts.iter().count().max(1) as u32;
-            let labels = parts
+            let told = Caption::text_of(shot, frame);
+            let step = layout.picture[0] / splices.iter().count().max(1) as u32;
+            let labels = splices
                 .iter()
                 .zip(0..)
                 .filter(|(part, _)| !part.label.is_empty());
@@ -157,7 +161,7 @@ impl Sheet {
         });
         let begin = || {
             let [width, height] = layout.size;
-            let mut encoder = png::Encoder::new(draft.pen(), width, height);
+            let mut encoder = png::Encoder::new(file.writer(), width, height);
             encoder.set_color(png::ColorType::Rgb);
             encoder.set_depth(png::BitDepth::Eight);
             encoder.set_source_srgb(png::SrgbRenderingIntent::RelativeColorimetric);
@@ -169,9 +173,13 @@ impl Sheet {
             row: Vec::new(),
             writer,
             layout,
-            draft,
+            file,
         };
-        let title = shot.shot.title.as_deref().unwrap_or(&reel.names.stem);
+        let title = shot
+            .shot
+            .title
+            .as_deref()
+            .unwrap_or(&shot_folder.names.stem);
         sheet.title(title).map_err(|error| error.to_string())?;
         Ok(sheet)
     }
@@ -191,8 +199,8 @@ impl Sheet {
         let left = |column: usize| GAP + column as u32 * (layout.width + GAP);
         let mut pictures = Band::new(layout.size[0], layout.picture[1]);
         let mut words = Vec::new();
-        for (column, still) in self.row.iter().enumerate() {
-            pictures.put(left(column), still);
+        for (column, image) in self.row.iter().enumerate() {
+            pictures.put(left(column), image);
             for (i, (x, text)) in self.captions[first + column].iter().enumerate() {
                 let line = u32::from(i > 0);
                 let base = line * layout.line + layout.line * 3 / 4;
@@ -207,10 +215,10 @@ impl Sheet {
     }
 }
 
-impl Target for Sheet {
-    fn add(&mut self, frame: u32, still: &Still) -> Result<(), String> {
+impl Encoder for Sheet {
+    fn add(&mut self, frame: u32, image: &FrameImage) -> Result<(), String> {
         let [width, height] = self.layout.picture;
-        self.row.push(reduce(still, width, height));
+        self.row.push(reduce(image, width, height));
         let full = self.row.len() == self.layout.columns as usize;
         if full || frame as usize == self.captions.len() {
             let first = frame as usize - self.row.len();
@@ -221,7 +229,7 @@ impl Target for Sheet {
 
     fn finish(self: Box<Self>) -> Result<PathBuf, String> {
         self.writer.finish().map_err(|error| error.to_string())?;
-        self.draft.keep().map_err(|error| error.to_string())
+        self.file.keep().map_err(|error| error.to_string())
     }
 }
 
@@ -243,10 +251,10 @@ impl Band {
     }
 
     /// Puts a picture `left` pixels from the left.
-    fn put(&mut self, left: u32, still: &Still) {
-        let line = still.width as usize * 3;
+    fn put(&mut self, left: u32, image: &FrameImage) {
+        let line = image.width as usize * 3;
         let rows = self.rgb8.chunks_exact_mut(self.width as usize * 3);
-        for (row, source) in rows.zip(still.rgb8.chunks_exact(line)) {
+        for (row, source) in rows.zip(image.rgb8.chunks_exact(line)) {
             row[left as usize * 3..][..line].copy_from_slice(source);
         }
     }

@@ -4,18 +4,16 @@
 //! Files are decoded on all threads, one a thread at a time, so that memory is bounded by as many
 //! pictures as there are threads.
 
-use super::finding::{Finding, Kind, Report};
-use super::gaps::{Run, SINGLY, count, gaps};
-use super::orphans::orphans;
-use super::outlier::{Differences, Grid, Outlier};
-use super::still::{decode_as, shown_extension};
+use super::discontinuity::{Differences, Discontinuity, Grid};
+use super::findings::{Finding, Kind, Report, Run, SINGLY, count, gaps, unknown_files};
+use super::frame_image::{decode_as, shown_extension};
+use crate::frame::FrameFingerprint;
 use crate::image::decode::{Fault, read_bytes};
-use crate::plan::FrameKey;
-use crate::queue::{FileRecord, Reel, Status, Stop};
+use crate::queue::Stop;
+use crate::store::{FileRecord, ShotFolder, Status};
 use rayon::prelude::*;
 use serde_json::Value;
 use std::path::Path;
-use std::sync::atomic::Ordering;
 
 /// Frames between two looks at how they differ: enough for all threads.
 const AT_ONCE: usize = 64;
@@ -25,24 +23,27 @@ const AT_ONCE: usize = 64;
 /// less than a third where the step is not nearly nothing.
 const KINK: f64 = 0.4;
 
-/// Looks at every frame of a reel, and at the files beside them. A folder that is not there has no
+/// Looks at every frame of a shot, and at the files beside them. A folder that is not there has no
 /// frames.
-pub fn verify(reel: &Reel) -> Report {
+pub fn verify(shot_folder: &ShotFolder) -> Report {
     let never = Stop::default();
-    verify_until(reel, &never).unwrap_or_default()
+    verify_until(shot_folder, &never).unwrap_or_default()
 }
 
 /// The same, unless asked to stop.
-pub(super) fn verify_until(reel: &Reel, stop: &Stop) -> Option<Report> {
-    let frames = reel.shot().shot.frames;
-    let there: Vec<u32> = reel.there().into_iter().collect();
+pub(super) fn verify_until(shot_folder: &ShotFolder, stop: &Stop) -> Option<Report> {
+    let frames = shot_folder.shot().shot.frames;
+    let there: Vec<u32> = shot_folder.there().into_iter().collect();
     let gaps = gaps(there.iter().copied(), frames);
-    let mut findings: Vec<Finding> = gaps.iter().flat_map(|gap| missing(reel, gap)).collect();
+    let mut findings: Vec<Finding> = gaps
+        .iter()
+        .flat_map(|gap| missing(shot_folder, gap))
+        .collect();
     let mut differences = Differences::default();
     for some in there.chunks(AT_ONCE) {
         let looked: Vec<_> = some
             .par_iter()
-            .map(|frame| (!is_asked(stop)).then(|| look(reel, *frame)))
+            .map(|frame| (!stop.is_asked()).then(|| look(shot_folder, *frame)))
             .collect();
         for (frame, looked) in some.iter().zip(looked) {
             let (found, grid) = looked?;
@@ -51,21 +52,22 @@ pub(super) fn verify_until(reel: &Reel, stop: &Stop) -> Option<Report> {
         }
     }
     differences.end(frames);
-    let outliers = differences.outliers().into_iter();
-    findings.extend(outliers.filter_map(|outlier| tell(reel, &outlier)));
+    let found = differences.discontinuities().into_iter();
+    findings.extend(found.filter_map(|found| unexplained(shot_folder, &found)));
     findings.sort_by_key(|finding| finding.frame);
-    findings.extend(orphans(reel));
+    findings.extend(unknown_files(shot_folder));
     Some(Report { frames, findings })
 }
 
-/// Whether somebody asked to stop.
-pub(super) fn is_asked(stop: &Stop) -> bool {
-    stop.asked().load(Ordering::Relaxed)
-}
-
 /// The findings of frames of which nothing is there: of a long run one.
-fn missing(reel: &Reel, gap: &Run) -> Vec<Finding> {
-    let file = |frame: u32| reel.files(frame).into_iter().next().unwrap_or_default();
+fn missing(shot_folder: &ShotFolder, gap: &Run) -> Vec<Finding> {
+    let file = |frame: u32| {
+        shot_folder
+            .files(frame)
+            .into_iter()
+            .next()
+            .unwrap_or_default()
+    };
     let one = |frame| finding(frame, file(frame), Kind::Missing, "missing".to_owned());
     let count = count(gap);
     if count <= SINGLY {
@@ -83,25 +85,25 @@ fn missing(reel: &Reel, gap: &Run) -> Vec<Finding> {
 }
 
 /// What is wrong with one frame by itself; and its grid, if it can be shown.
-fn look(reel: &Reel, frame: u32) -> (Vec<Finding>, Option<Grid>) {
-    let key = reel.keys.frame(frame);
-    let record = reel.records.get(&frame);
+fn look(shot_folder: &ShotFolder, frame: u32) -> (Vec<Finding>, Option<Grid>) {
+    let key = shot_folder.keys.frame(frame);
+    let record = shot_folder.records.get(&frame);
     let record = record.filter(|record| record.fingerprint == key.fingerprint);
-    let told = reel.written(frame, &key);
+    let told = shot_folder.written(frame, &key);
     let told = told.or_else(|| Some(record?.files.as_slice()));
     let same = told.is_some();
     let told = told.unwrap_or_default();
-    let status = reel.status(frame, &key);
+    let status = shot_folder.status(frame, &key);
     let mut findings = Vec::new();
     let mut grid = None;
     if status == Status::Missing {
         // Gone in this moment.
-        return (missing(reel, &(frame..=frame)), grid);
+        return (missing(shot_folder, &(frame..=frame)), grid);
     }
-    let shown = shown_extension(reel.shot());
-    for file in reel.files(frame) {
+    let shown = shown_extension(shot_folder.shot());
+    for file in shot_folder.files(frame) {
         let extension = if file.ends_with(".exr") { "exr" } else { "png" };
-        match inspect(reel, told, &file, extension) {
+        match inspect(shot_folder, told, &file, extension) {
             Ok(inspected) => {
                 let what = inspected.wrong.into_iter();
                 findings.extend(what.map(|(kind, why)| finding(frame, file.clone(), kind, why)));
@@ -112,17 +114,21 @@ fn look(reel: &Reel, frame: u32) -> (Vec<Finding>, Option<Grid>) {
             // Of something else, so of another size too: that goes without saying.
             Err(Fault::Size { .. }) if !same => {}
             Err(fault) => {
-                let why = cut_short(told, &reel.folder, &file, &fault);
+                let why = cut_short(told, &shot_folder.path, &file, &fault);
                 findings.push(finding(frame, file, kind_of(&fault), why));
             }
         }
     }
     // Where the files themselves tell what is wrong, that is said and not that lengths differ.
-    if let Status::Stale { because } = status
+    if let Status::Stale { reason } = status
         && (!same || findings.is_empty())
     {
-        let file = reel.files(frame).into_iter().next().unwrap_or_default();
-        let why = format!("stale: {because}; render it again");
+        let file = shot_folder
+            .files(frame)
+            .into_iter()
+            .next()
+            .unwrap_or_default();
+        let why = format!("stale: {reason}; render it again");
         findings.insert(0, finding(frame, file, Kind::Stale, why));
         grid = None;
     }
@@ -137,14 +143,14 @@ struct Inspected {
 
 /// Reads a file; `told` is what a manifest tells of the frame's files as they should be.
 fn inspect(
-    reel: &Reel,
+    shot_folder: &ShotFolder,
     told: &[FileRecord],
     file: &str,
     extension: &str,
 ) -> Result<Inspected, Fault> {
-    let size = reel.keys.picture().size;
-    let bytes = read_bytes(&reel.folder.join(file), size)?;
-    let decoded = decode_as(reel.shot(), extension, &bytes, size)?;
+    let size = shot_folder.keys.resolution().size;
+    let bytes = read_bytes(&shot_folder.path.join(file), size)?;
+    let decoded = decode_as(shot_folder.shot(), extension, &bytes, size)?;
     let mut wrong = Vec::new();
     let written = told.iter().find(|f| f.name == file);
     if written.is_some_and(|written| written.blake3 != blake3::hash(&bytes).to_hex().as_str()) {
@@ -201,25 +207,27 @@ fn finding(frame: u32, file: String, kind: Kind, why: String) -> Finding {
     }
 }
 
-/// The finding of an outlier, unless the shot itself explains it.
-fn tell(reel: &Reel, outlier: &Outlier) -> Option<Finding> {
-    let frame = outlier.frame;
+/// The finding of a discontinuity, unless the shot itself explains it.
+fn unexplained(shot_folder: &ShotFolder, discontinuity: &Discontinuity) -> Option<Finding> {
+    let frame = discontinuity.frame;
     // An end is judged by the frames beside it.
-    let middle = frame.clamp(2, reel.shot().shot.frames.saturating_sub(1).max(2));
-    if explained([middle - 1, middle, middle + 1].map(|frame| reel.keys.frame(frame))) {
+    let middle = frame.clamp(2, shot_folder.shot().shot.frames.saturating_sub(1).max(2));
+    if explained([middle - 1, middle, middle + 1].map(|frame| shot_folder.keys.frame(frame))) {
         return None;
     }
-    let file = reel.names.frame(frame, shown_extension(reel.shot()));
+    let file = shot_folder
+        .names
+        .frame(frame, shown_extension(shot_folder.shot()));
     let why = format!(
         "outlier: it is {:.3} from what its neighbours let expect, others around it {:.3}; look at it",
-        outlier.difference, outlier.usual
+        discontinuity.difference, discontinuity.usual
     );
     Some(finding(frame, file, Kind::Outlier, why))
 }
 
 /// Whether a value of the shot leaves the way between its neighbours.
-fn explained(keys: [FrameKey; 3]) -> bool {
-    let [before, here, after] = keys.map(|key| key.parts);
+fn explained(keys: [FrameFingerprint; 3]) -> bool {
+    let [before, here, after] = keys.map(|key| key.inputs);
     let one_way = |part: &str, value: &String| match (before.get(part), after.get(part)) {
         (Some(before), Some(after)) => smooth(before, value, after),
         _ => false,
@@ -265,10 +273,10 @@ fn numbers(text: &str) -> Option<Vec<f64>> {
 mod tests {
     use super::*;
 
-    fn keys(values: [&str; 3]) -> [FrameKey; 3] {
-        values.map(|value| FrameKey {
+    fn keys(values: [&str; 3]) -> [FrameFingerprint; 3] {
+        values.map(|value| FrameFingerprint {
             fingerprint: String::new(),
-            parts: [("camera.pan".to_owned(), value.to_owned())]
+            inputs: [("camera.pan".to_owned(), value.to_owned())]
                 .into_iter()
                 .collect(),
             trace: String::new(),
@@ -303,7 +311,7 @@ mod tests {
     #[test]
     fn a_part_that_one_frame_alone_has_explains_it() {
         let [before, mut here, after] = keys(["1", "1", "1"]);
-        here.parts
+        here.inputs
             .insert("model[1].file".to_owned(), "x".to_owned());
         assert!(explained([before, here, after]));
     }

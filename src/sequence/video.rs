@@ -4,12 +4,12 @@
 //! Rec. 709 as players expect it: limited range, 4:2:0, tagged; the transfer is sRGB's, that of the
 //! pixels. H.264 at a constant rate factor of 18, AV1 at 20 with 10 bits.
 
-use super::draft::Draft;
-use super::program::Program;
-use super::still::Still;
-use super::target::Target;
+use super::child_process::ChildProcess;
+use super::frame_image::FrameImage;
+use super::output::Encoder;
 use crate::queue::Stop;
 use crate::shot::Video as Kind;
+use crate::store::AtomicFile;
 use std::ffi::OsString;
 use std::io::{self, Read};
 use std::path::PathBuf;
@@ -20,8 +20,8 @@ const LEAST_AV1: u32 = 64;
 
 /// A video in the making.
 pub(super) struct Video {
-    draft: Draft,
-    ffmpeg: Program,
+    file: AtomicFile,
+    ffmpeg: ChildProcess,
     stop: Stop,
     frames: u32,
     size: [u32; 2],
@@ -35,7 +35,7 @@ pub(super) fn even(size: [u32; 2]) -> [u32; 2] {
 impl Video {
     /// Begins one of so many frames of a size, `rate` of them a second as a fraction.
     pub(super) fn new(
-        draft: Draft,
+        file: AtomicFile,
         kind: Kind,
         size: [u32; 2],
         frames: u32,
@@ -52,15 +52,16 @@ impl Video {
         let mut command = Command::new("ffmpeg");
         command
             .args(arguments(kind, even(size), rate))
-            .arg(draft.now());
-        let ffmpeg = Program::start(&mut command, stop).map_err(|error| match error.kind() {
-            io::ErrorKind::NotFound => "videos are made by ffmpeg, which is not to be found: \
+            .arg(file.temporary());
+        let ffmpeg =
+            ChildProcess::start(&mut command, stop).map_err(|error| match error.kind() {
+                io::ErrorKind::NotFound => "videos are made by ffmpeg, which is not to be found: \
                 install it (apt install ffmpeg), or leave out sequence.video"
-                .to_owned(),
-            _ => format!("ffmpeg does not start: {error}"),
-        })?;
+                    .to_owned(),
+                _ => format!("ffmpeg does not start: {error}"),
+            })?;
         Ok(Self {
-            draft,
+            file,
             ffmpeg,
             stop: stop.clone(),
             frames,
@@ -84,10 +85,10 @@ fn arguments(kind: Kind, [width, height]: [u32; 2], (n, d): (i32, u32)) -> Vec<O
     line.split_whitespace().map(OsString::from).collect()
 }
 
-impl Target for Video {
-    fn add(&mut self, _: u32, still: &Still) -> Result<(), String> {
-        let padded = pad(still, even(self.size));
-        let pixels = padded.as_ref().unwrap_or(&still.rgb8);
+impl Encoder for Video {
+    fn add(&mut self, _: u32, image: &FrameImage) -> Result<(), String> {
+        let padded = pad(image, even(self.size));
+        let pixels = padded.as_ref().unwrap_or(&image.rgb8);
         let written = self.ffmpeg.write(pixels);
         // It has ended: what it said tells more than the broken pipe.
         written.map_err(|error| match self.ffmpeg.end() {
@@ -98,12 +99,12 @@ impl Target for Video {
 
     fn finish(mut self: Box<Self>) -> Result<PathBuf, String> {
         self.ffmpeg.end().map_err(|why| failed(&why))?;
-        match count(&self.draft, &self.stop)? {
+        match count(&self.file, &self.stop)? {
             Some(found) if found != self.frames => Err(format!(
                 "ffmpeg made a video of {found} frames from {}; try another build of it",
                 self.frames
             )),
-            _ => self.draft.keep().map_err(|error| error.to_string()),
+            _ => self.file.keep().map_err(|error| error.to_string()),
         }
     }
 }
@@ -113,17 +114,17 @@ fn failed(why: &str) -> String {
 }
 
 /// The pixels with their last column and row once more, where sides are odd.
-fn pad(still: &Still, [width, height]: [u32; 2]) -> Option<Vec<u8>> {
-    if [width, height] == [still.width, still.height] {
+fn pad(image: &FrameImage, [width, height]: [u32; 2]) -> Option<Vec<u8>> {
+    if [width, height] == [image.width, image.height] {
         return None;
     }
-    let stride = still.width as usize * 3;
+    let stride = image.width as usize * 3;
     let mut padded = Vec::with_capacity(width as usize * height as usize * 3);
     for y in 0..height {
-        let row = y.min(still.height - 1) as usize;
-        let bytes = &still.rgb8[row * stride..][..stride];
+        let row = y.min(image.height - 1) as usize;
+        let bytes = &image.rgb8[row * stride..][..stride];
         padded.extend_from_slice(bytes);
-        if width > still.width {
+        if width > image.width {
             padded.extend_from_slice(&bytes[stride - 3..]);
         }
     }
@@ -132,12 +133,12 @@ fn pad(still: &Still, [width, height]: [u32; 2]) -> Option<Vec<u8>> {
 
 /// How many frames a video has; none where there is no ffprobe to tell. ffmpeg ends well though the
 /// end of the file could not be written (5.1): a video that ffprobe cannot read is a torn one.
-fn count(draft: &Draft, stop: &Stop) -> Result<Option<u32>, String> {
+fn count(file: &AtomicFile, stop: &Stop) -> Result<Option<u32>, String> {
     let words = "-v error -select_streams v:0 -count_frames -show_entries stream=nb_read_frames \
                  -of csv=p=0";
     let mut command = Command::new("ffprobe");
-    command.args(words.split_whitespace()).arg(draft.now());
-    let mut ffprobe = match Program::start(&mut command, stop) {
+    command.args(words.split_whitespace()).arg(file.temporary());
+    let mut ffprobe = match ChildProcess::start(&mut command, stop) {
         Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(None),
         started => started.map_err(|error| format!("ffprobe does not start: {error}"))?,
     };
@@ -162,13 +163,13 @@ mod tests {
 
     #[test]
     fn odd_sides_repeat_their_last_line() {
-        let still = Still {
+        let image = FrameImage {
             width: 1,
             height: 1,
             rgb8: vec![1, 2, 3],
         };
         assert_eq!(even([1, 1]), [2, 2]);
-        assert_eq!(pad(&still, [2, 2]), Some([1, 2, 3].repeat(4)));
-        assert_eq!(pad(&still, [1, 1]), None);
+        assert_eq!(pad(&image, [2, 2]), Some([1, 2, 3].repeat(4)));
+        assert_eq!(pad(&image, [1, 1]), None);
     }
 }

@@ -1,14 +1,14 @@
-//! A spectrum as the shader holds it: baked on the sensor's axis, or as its author wrote it.
+//! A curve: weight × spectrum, baked on the sensor's axis or as its author wrote it.
 
 use super::narrow::Narrow;
 use crate::spectrum::{Baked, Fine, LogAxis, Smoothing, Spectrum};
 use std::sync::{Arc, OnceLock};
 
-/// Share of local light that a grid may lose or add before a curve counts as narrow: half of what
-/// pictures of a ramp may flicker by.
+/// Share of local light that a grid may lose or add before a curve counts as narrow: half of the
+/// flicker that is allowed in frames of a velocity ramp.
 pub(super) const NOTICED: f64 = 1e-3;
 
-/// The same of a curve that is read as its author wrote it, point by point.
+/// The same for a curve that is not baked.
 const NOTICED_AS_WRITTEN: f64 = 2e-3;
 
 /// weight × spectrum, at most `limit`, ready to be read under any shift.
@@ -19,14 +19,14 @@ pub(super) struct Curve {
     axis: LogAxis,
     baked: Option<Baked>,
     narrow: Option<Narrow>,
-    /// Where a baked curve is read at any place: made when it is first asked for.
+    /// Samples between which a baked curve is read at any wavelength; made when first needed.
     fine: OnceLock<Option<Fine>>,
     reach: f64,
 }
 
 impl Curve {
-    /// As its author wrote it. A reflectance has limit 1: what a spline overshoots between authored
-    /// points is clamped.
+    /// A curve as its author wrote it. A reflectance has limit 1, because a spline may overshoot it
+    /// between points.
     pub(super) fn new(spectrum: &Arc<Spectrum>, weight: f64, limit: f64, axis: LogAxis) -> Self {
         Self {
             spectrum: Arc::clone(spectrum),
@@ -40,7 +40,7 @@ impl Curve {
         }
     }
 
-    /// Baked for |ln D| up to `reach`, unless that would be too large a table.
+    /// The same baked for |ln D| up to `reach`, unless the table would be too large.
     pub(super) fn baked_within(mut self, reach: f64) -> Self {
         let smoothing = Smoothing::of(&self.spectrum);
         self.reach = reach;
@@ -48,8 +48,8 @@ impl Curve {
         self
     }
 
-    /// Held so that none of its light falls between wavelengths, if it is so narrow that some would:
-    /// `narrow` makes what it is then held as, and what is baked becomes each wavelength's share.
+    /// The same held as a narrow curve, made by `narrow`, if a grid would lose or add more than
+    /// [`NOTICED`] of its light. What is baked then becomes means over the spacing of the axis.
     pub(super) fn narrowed_within(
         mut self,
         reach: f64,
@@ -61,7 +61,7 @@ impl Curve {
         let Some(fine) = Fine::of(self.axis, reach, &self.spectrum, |nm| self.at(nm)) else {
             return self;
         };
-        // Read as its author wrote it, it is not smoothed either.
+        // A curve that is not baked is not smoothed either.
         let as_written;
         let (baked, noticed) = match &self.baked {
             Some(baked) => (Some(baked), NOTICED),
@@ -73,7 +73,7 @@ impl Curve {
         if baked.is_none_or(|baked| fine.is_served_by(baked, noticed)) {
             return self;
         }
-        // Without a table it goes on being read as written by whoever wants the curve.
+        // A curve that is not baked is still read as written where its values are asked for.
         if self.baked.is_some() {
             self.baked = self.table(reach, Smoothing::Mean, |nm| fine.near(nm));
         }
@@ -85,7 +85,7 @@ impl Curve {
         Baked::new(self.axis, reach, self.support_nm(), smoothing, curve)
     }
 
-    /// The exact value at a wavelength of the source's frame.
+    /// The exact value at a wavelength (nm) of the source's rest frame; finite.
     pub(super) fn at(&self, nm: f64) -> f64 {
         (self.weight * self.spectrum.at(nm))
             .min(self.limit)
@@ -100,36 +100,37 @@ impl Curve {
             + fine.map_or(0, Fine::bytes)
     }
 
-    /// The value everywhere, for a curve that is the same everywhere.
+    /// The value of a curve that is the same at all wavelengths; None of others.
     pub(super) fn constant(&self) -> Option<f64> {
         matches!(*self.spectrum, Spectrum::Constant(_))
             .then(|| self.at(self.axis.wavelength_nm(0.0)))
     }
 
-    /// As its author wrote it, without weight and limit.
+    /// The spectrum as its author wrote it, without weight and limit.
     pub(super) fn spectrum(&self) -> &Spectrum {
         &self.spectrum
     }
 
+    /// The wavelengths outside of which it is constant, nm; None if it is constant everywhere.
     pub(super) fn support_nm(&self) -> Option<[f64; 2]> {
         self.spectrum.support_nm()
     }
 
-    /// The baked form, or None where the curve is held as its author wrote it. Of a narrow curve
-    /// its sums over wavelengths are not those of the curve.
+    /// The baked form; None if the curve is held as its author wrote it. Sums of it over wavelengths
+    /// are wrong where the curve is narrow.
     #[inline(always)]
     pub(super) fn baked(&self) -> Option<&Baked> {
         self.baked.as_ref()
     }
 
-    /// What a curve is held as whose light would fall between wavelengths.
+    /// The narrow form; None if the curve is smooth enough for the axis.
     #[inline(always)]
     pub(super) fn narrow(&self) -> Option<&Narrow> {
         self.narrow.as_ref()
     }
 
-    /// The curve at e^`ln_shift`·λ, λ at a place in nodes of the axis: of a baked curve between
-    /// means about the nodes.
+    /// The curve at e^`ln_shift`·λ, λ at a position on the axis in nodes, which `nm` gives in nm. A
+    /// baked curve is interpolated between means about the nodes.
     #[inline]
     pub(super) fn at_node(&self, ln_shift: f64, node: f64, nm: impl Fn(f64) -> f64) -> f64 {
         let fine = self.baked.as_ref().and_then(|_| {
@@ -142,8 +143,8 @@ impl Curve {
         }
     }
 
-    /// Writes the curve at `shift`·λ for the axis' wavelengths; `out` is to be multiplied by what
-    /// is returned. Of a narrow curve that is baked these are means over a spacing.
+    /// Writes the shape of the curve at `shift`·λ for the axis' wavelengths λ. Returns its factor. Of
+    /// a narrow curve that is baked these are means over the spacing of the axis.
     #[inline(always)]
     pub(super) fn read(&self, shift: f64, out: &mut [f32]) -> f64 {
         match &self.baked {
@@ -156,7 +157,8 @@ impl Curve {
     }
 }
 
-/// Writes values over the largest of them, which is returned: f32 holds any curve so.
+/// Writes values over the largest of them, and returns that one: so the f32 neither overflow nor
+/// underflow.
 pub(super) fn write_shape(value: impl Fn(usize) -> f64, out: &mut [f32]) -> f64 {
     let peak = (0..out.len()).map(&value).fold(0.0, f64::max);
     let scale = if peak > 0.0 { peak } else { 1.0 };

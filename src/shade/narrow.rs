@@ -1,35 +1,35 @@
-//! Light of curves that are narrower than the wavelengths are apart: lines of lamps and of what
-//! glows, narrow filters, spiky tables.
+//! Curves that are narrower than the distance of the sensor's wavelengths: emission lines, narrow
+//! filters, spiky tables. Sums over those wavelengths would miss part of their light, or count it
+//! twice.
 //!
 //! The channels of one such curve, and of a lamp's light on a paint that moves with it, are
-//! tabulated over ln D from integrals ([`Fine`]). Where one is met by smooth curves under other
-//! shifts, its lines are a few points ([`Sparse`]) and the rest of it stands for the sensor's
-//! weights ([`Responses`]). Where two meet under shifts of their own they are integrated as their
-//! authors wrote them, over what they share; if that is much, one is read by its means
-//! ([`unresolved`](super::unresolved())).
+//! tabulated over ln D from integrals ([`Fine`]). Multiplied by smooth curves under other shifts, its
+//! lines are read at a few points ([`Sparse`]) and the rest of it by weights of its own
+//! ([`Responses`]). Two narrow curves under shifts of their own are integrated together
+//! (`grid/meeting.rs`).
 
 use super::table::{XyzTable, add, interesting};
 use crate::spectrum::{Fine, FineSensor, Responses, Sparse, Spectrum};
 use std::sync::{Arc, OnceLock};
 
-/// How many widths from its center a gaussian ends where it meets another narrow curve: 2e-11 of
-/// the peak.
+/// Distance from its center, in widths, at which a gaussian is cut off in integrals with another
+/// narrow curve: there it is 2e-11 of the peak.
 const REACH: f64 = 7.0;
 
-/// A narrow curve, ready to be seen under any shift.
+/// A narrow curve, ready to be read under any shift.
 pub(super) struct Narrow {
     fine: Fine,
-    /// Its lines, and what is left without them.
+    /// Its lines, and the rest of it.
     parts: OnceLock<(Option<Sparse>, Option<Responses>)>,
     sensor: Arc<FineSensor>,
-    /// The range of ln D in which it changes what is seen.
+    /// The range of ln D over which its channels change.
     range: [f64; 2],
-    /// Where all its light lies, nm; None if some goes on beyond its last point.
+    /// The wavelengths between which it is not 0, nm; None if it is extrapolated by another value.
     extent_nm: Option<[f64; 2]>,
 }
 
 impl Narrow {
-    /// Of a spectrum held as `fine`, for |ln D| up to `reach`.
+    /// A spectrum of samples `fine`, for |ln D| up to `reach`.
     pub(super) fn new(
         fine: Fine,
         spectrum: &Spectrum,
@@ -53,21 +53,21 @@ impl Narrow {
         }
     }
 
-    /// The sensor's channels over ln D up to `reach`, unless they are too many; `support_nm` is where
-    /// it is not constant.
+    /// A table of the sensor's channels for |ln D| up to `reach`; None if it would be too large. The
+    /// curve is constant outside of `support_nm`.
     pub(super) fn table(&self, reach: f64, support_nm: Option<[f64; 2]>) -> Option<XyzTable> {
         XyzTable::fits(self.sensor.axis(), reach, support_nm)
             .then(|| XyzTable::of_fine(&self.sensor, &self.fine, reach, support_nm))
     }
 
-    /// The wavelength of a place in nodes of the axis, nm.
+    /// The wavelength (nm) at a position on the axis, in nodes.
     pub(super) fn wavelength_nm(&self, node: f64) -> f64 {
         self.sensor.wavelength_nm(node)
     }
 
-    /// The channels of the curve under a shift, times what is smooth: `at` gives it by the place of a
-    /// wavelength in nodes of the axis; `write` writes it over the axis, into `shape`, and returns
-    /// its factor.
+    /// The channels of the curve under a shift times a smooth factor. `at` gives that factor at a
+    /// position on the axis, in nodes; `write` writes its shape over the axis into `shape`, and
+    /// returns the factor of the shape.
     #[inline]
     pub(super) fn times(
         &self,
@@ -88,7 +88,7 @@ impl Narrow {
         sum
     }
 
-    /// Made where a ray first asks for them.
+    /// The parts, made when a ray first needs them.
     fn parts(&self) -> &(Option<Sparse>, Option<Responses>) {
         self.parts.get_or_init(|| {
             let (lines, left) = Sparse::split(self.fine.clone());
@@ -104,12 +104,12 @@ impl Narrow {
         })
     }
 
-    /// Where all its light lies, nm; None if some goes on beyond its last point.
+    /// The wavelengths between which it is not 0, nm; None if it is extrapolated by another value.
     pub(super) fn extent_nm(&self) -> Option<[f64; 2]> {
         self.extent_nm
     }
 
-    /// Memory of what it is held as, bytes.
+    /// Memory of samples and weights, bytes.
     pub(super) fn bytes(&self) -> usize {
         let left = self.parts.get().and_then(|(_, left)| left.as_ref());
         self.fine.bytes() + left.map_or(0, Responses::bytes)

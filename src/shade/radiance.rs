@@ -1,4 +1,4 @@
-//! Spectral radiance along a ray, by what it comes from.
+//! Spectral radiance along a ray: thermal light, and all other.
 
 /// Spectral radiance (W·m⁻²·sr⁻¹·nm⁻¹) at the sensor's wavelengths.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -10,14 +10,14 @@ pub struct Radiance {
 }
 
 impl Radiance {
-    /// None at `count` wavelengths.
+    /// Zero at `count` wavelengths.
     pub fn new(count: usize) -> Self {
         let mut dark = Self::default();
         dark.clear(count);
         dark
     }
 
-    /// Makes it dark at `count` wavelengths, keeping the memory.
+    /// Makes it zero at `count` wavelengths, keeping the memory.
     pub(super) fn clear(&mut self, count: usize) {
         for part in self.parts_mut() {
             part.clear();
@@ -25,11 +25,12 @@ impl Radiance {
         }
     }
 
+    /// Both parts, the thermal one last.
     pub(super) fn parts_mut(&mut self) -> [&mut Vec<f64>; 2] {
         [&mut self.surface, &mut self.thermal]
     }
 
-    /// All of it.
+    /// Both together; finite.
     pub fn total(&self) -> Vec<f64> {
         let parts = self.surface.iter().zip(&self.thermal);
         parts.map(|(a, b)| (a + b).min(f64::MAX)).collect()

@@ -1,10 +1,11 @@
-//! Light of the sky in one direction: its spectrum or image, and the stars there.
+//! Light of the sky in one direction, for grid, spline and exact: its spectrum, its image and its
+//! stars.
 //!
-//! An image's colour becomes a curve, [`ColoredLight`] times D65, that is read at all wavelengths
-//! under the shift. Beyond the visible the colour's curve goes on with its end value and D65 with
-//! that of its table (300 and 780 nm): an image does not say more. Where nothing is shifted and
-//! the sensor is the CIE's over the visible, XYZ is the colour's own; both ways agree within
-//! [`AGREEMENT`].
+//! A colour of the image stands for the spectrum [`ColoredLight`] times D65, which is read under the
+//! shift. Outside of the visible that spectrum is extrapolated, because an image does not say more:
+//! the colour's curve by its end values, D65 by those of its table (300 and 780 nm). Where the shift
+//! is 1 and the sensor is the CIE's over the visible, the channels are XYZ of the colour itself,
+//! without wavelengths; both ways agree within [`AGREEMENT`].
 
 use super::bake::Bake;
 use super::curve::Curve;
@@ -19,12 +20,12 @@ use crate::spectrum::{ColoredLight, LogAxis, Sensor, illuminant, planck};
 use glam::DVec3;
 use std::sync::Arc;
 
-/// How near XYZ of a colour itself comes to that of its curve, over the greatest of X, Y and Z,
-/// where it stands in for it.
+/// Largest difference between XYZ of a colour and that of its spectrum, over the greatest of X, Y
+/// and Z, with which the first stands in for the second.
 const AGREEMENT: f64 = 1e-3;
 
-/// Colours by which the agreement is judged: the most saturated, and some between.
-const JUDGED: [[f64; 3]; 8] = [
+/// Colours at which the agreement is tested: the most saturated, and some between.
+const TESTED: [[f64; 3]; 8] = [
     [1.0, 0.0, 0.0],
     [0.0, 1.0, 0.0],
     [0.0, 0.0, 1.0],
@@ -35,7 +36,7 @@ const JUDGED: [[f64; 3]; 8] = [
     [0.2, 0.5, 1.0],
 ];
 
-/// The sky of one image, ready to be looked at.
+/// Spectra of the sky of one image.
 pub(super) struct SkyShade {
     constant: Option<EmitterTable>,
     image: Option<SkyImageLight>,
@@ -43,7 +44,7 @@ pub(super) struct SkyShade {
 }
 
 impl SkyShade {
-    /// Prepares a sky's curves. `bodies` are there if it has stars.
+    /// Prepares the spectra. `bodies` is Some where the sky has stars.
     pub(super) fn new(
         sky: &Background,
         bake: &Bake<'_>,
@@ -62,19 +63,19 @@ impl SkyShade {
         }
     }
 
-    /// Memory of its curves, bytes.
+    /// Memory of curves and tables, bytes.
     pub(super) fn bytes(&self) -> usize {
         self.constant.as_ref().map_or(0, EmitterTable::bytes)
             + self.image.as_ref().map_or(0, |image| image.d65.bytes())
     }
 
-    /// The spectrum that is the same all around.
+    /// The spectrum that is the same in all directions.
     pub(super) fn constant(&self) -> Option<&EmitterTable> {
         self.constant.as_ref()
     }
 
-    /// XYZ (cd/m²) from a unit direction, in the sky's own axes, away from the observer, under the
-    /// Doppler factor `doppler`. `scratch` is as long as the sensor's axis.
+    /// The sensor's channels of the light received from a unit direction, in the sky's own axes and
+    /// away from the observer. `scratch` has the length of the sensor's axis.
     #[inline]
     pub(super) fn xyz(
         &self,
@@ -101,7 +102,7 @@ impl SkyShade {
         sum.map(finite)
     }
 
-    /// Adds the spectral radiance (W·m⁻²·sr⁻¹·nm⁻¹) that [`SkyShade::xyz`] is of.
+    /// Adds the spectral radiance (W·m⁻²·sr⁻¹·nm⁻¹) of the same light at the axis' wavelengths.
     pub(super) fn add(
         &self,
         direction: DVec3,
@@ -133,7 +134,7 @@ impl SkyShade {
         }
     }
 
-    /// Adds what [`SkyShade::add`] is made of.
+    /// Adds the same light as functions of wavelength.
     pub(super) fn add_sources<'a>(
         &'a self,
         direction: DVec3,
@@ -162,13 +163,13 @@ impl SkyShade {
     }
 }
 
-/// An image as light.
+/// Light of a sky image.
 struct SkyImageLight {
     image: Arc<SkyImage>,
     scale: f64,
     d65: Curve,
     wavelengths_nm: Vec<f32>,
-    /// XYZ of an unshifted colour at scale 1, if the sensor has that of its curve.
+    /// XYZ of a colour at scale 1 and shift 1; None if the sensor's channels of its spectrum differ.
     xyz_from_rgb: Option<Matrix>,
 }
 
@@ -177,26 +178,26 @@ impl SkyImageLight {
         let sensor = bake.sensor;
         let d65 = Arc::new(illuminant("D65").expect("D65 has a table"));
         let wavelengths_nm = sensor.axis().wavelengths_nm();
-        let mut light_of = Self {
+        let mut made = Self {
             image,
             scale,
             d65: bake.smooth_curve(&d65, 1.0, f64::INFINITY),
             wavelengths_nm: wavelengths_nm.iter().map(|nm| *nm as f32).collect(),
             xyz_from_rgb: None,
         };
-        light_of.xyz_from_rgb = light_of.own_colors(sensor);
-        light_of
+        made.xyz_from_rgb = made.own_colors(sensor);
+        made
     }
 
-    /// XYZ of a colour without its curve, by the sensor's own white: None if this sensor's XYZ of
-    /// curves is another.
+    /// The matrix from colours to XYZ, relative to the sensor's white; None if the sensor's channels
+    /// of their spectra differ.
     fn own_colors(&self, sensor: &Sensor) -> Option<Matrix> {
         let mut shape = vec![0.0; self.wavelengths_nm.len()];
         let mut by_curve = |rgb: [f64; 3]| {
             let factor = self.read(rgb, 1.0, &mut shape) / self.scale;
             sensor.xyz_of_shape(&shape).map(|v| v * factor)
         };
-        // A curve's channels are relative to those of D65, whose table is not quite the white.
+        // Channels are relative to those of D65, whose table is not quite the white of the colours.
         let white = apply(&RGB_FROM_XYZ, by_curve([1.0; 3]));
         let own = XYZ_FROM_RGB.map(|row| [0, 1, 2].map(|c| row[c] * white[c]));
         let agrees = |rgb: [f64; 3]| {
@@ -204,7 +205,7 @@ impl SkyImageLight {
             let greatest = curve.into_iter().fold(0.0, f64::max);
             (0..3).all(|c| (curve[c] - own[c]).abs() <= AGREEMENT * greatest)
         };
-        JUDGED.into_iter().all(agrees).then_some(own)
+        TESTED.into_iter().all(agrees).then_some(own)
     }
 
     #[inline]
@@ -226,12 +227,12 @@ impl SkyImageLight {
             }
         };
         let factor = finite(factor * power);
-        // The sensor's weights may be below 0 by rounding.
+        // Rounding may take the sensor's weights below 0.
         xyz.map(|v| finite(v.max(0.0) * factor))
     }
 
-    /// Writes the shape of a colour's light at `shift` times the axis' wavelengths; `out` is to be
-    /// multiplied by what is returned, which is finite.
+    /// Writes the shape of a colour's spectrum at `shift` times the axis' wavelengths. Returns its
+    /// factor, finite.
     #[inline]
     fn read(&self, rgb: [f64; 3], shift: f64, out: &mut [f32]) -> f64 {
         let light = ColoredLight::new(rgb);

@@ -1,5 +1,5 @@
-//! The sensor's channels of a curve as a function of ln D (XYZ, or band totals): where one shift
-//! serves everything that makes the curve, no wavelength need be looked at when a ray is shaded.
+//! Tables of the sensor's channels of a curve over ln D. Where one shift serves all that a curve is a
+//! product of, a table replaces the sum over wavelengths when a ray is shaded.
 
 use crate::spectrum::{Fine, FineSensor, LogAxis, Sensor, catmull_rom};
 
@@ -20,7 +20,7 @@ const COARSEST: f64 = 400.0;
 /// over the shifts of a fast scene would take longer to make than sums over wavelengths.
 const MOST: f64 = 1e4;
 
-/// Most entries of a table of a curve that is narrow somewhere.
+/// Most entries of a table of a narrow curve.
 const MOST_ENTRIES: f64 = 32_768.0;
 
 /// XYZ (cd/m²), or band totals (W·m⁻²·sr⁻¹), of a curve C(Dλ), W·m⁻²·sr⁻¹·nm⁻¹, tabulated over
@@ -33,12 +33,12 @@ pub(super) struct XyzTable {
 }
 
 impl XyzTable {
-    /// Whether tables are worth it over an axis; else every curve is summed over wavelengths.
+    /// Whether tables pay over an axis. Otherwise curves are summed over wavelengths.
     pub(super) fn serves(axis: LogAxis) -> bool {
         per_unit(axis) <= MOST
     }
 
-    /// Whether a table of a curve that is narrow somewhere is worth making.
+    /// Whether a table of a narrow curve would have at most [`MOST_ENTRIES`] entries.
     pub(super) fn fits(axis: LogAxis, reach: f64, support_nm: Option<[f64; 2]>) -> bool {
         let [low, high] = interesting(axis, reach, support_nm);
         (high - low) * per_unit(axis) <= MOST_ENTRIES
@@ -49,9 +49,8 @@ impl XyzTable {
         1.0 / per_unit(axis)
     }
 
-    /// Tabulates `read(D, out)`, which writes the curve's shape at D·λ and returns its factor,
-    /// for |ln D| ≤ `reach`, as far as `support_nm` (outside of which the curve is constant)
-    /// makes a difference.
+    /// Tabulates `read(D, out)`, which writes the curve's shape at D·λ and returns its factor, for
+    /// |ln D| ≤ `reach`, less where the curve, constant outside of `support_nm`, changes less far.
     pub(super) fn new(
         sensor: &Sensor,
         reach: f64,
@@ -65,7 +64,7 @@ impl XyzTable {
         })
     }
 
-    /// The same of a curve held as `fine`.
+    /// The same of a curve of samples `fine`.
     pub(super) fn of_fine(
         sensor: &FineSensor,
         fine: &Fine,
@@ -99,7 +98,7 @@ impl XyzTable {
         size_of_val(&*self.entries)
     }
 
-    /// XYZ, or band totals, under the shift D = exp(`ln_doppler`); never negative.
+    /// The channels under the shift D = exp(`ln_doppler`); never negative.
     #[inline(always)]
     pub(super) fn at(&self, ln_doppler: f64) -> [f64; 3] {
         let last = (self.entries.len() - 4) as f64;

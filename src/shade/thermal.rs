@@ -18,7 +18,7 @@ pub(super) struct BlackbodyTable {
     hottest_k: f64,
 }
 
-/// λT (nm·K) below which a body has no light that counts; at the window's longest wavelength it is
+/// λT (nm·K) below which a body's light counts as 0; at the window's longest wavelength it is
 /// the coldest entry, 25 K for the visible. There x = hc/(λkT) is 693, so B is less than 1e-301 of
 /// c₁λ⁻⁵, which is at most 1e65 in any window: what a film holds ends at 1e-45, and an exposure
 /// multiplies by 1e60 at most.
@@ -26,7 +26,7 @@ const DARK_NM_K: f64 = 25.0 * 830.0;
 /// λT (nm·K) above which B is proportional to T (Rayleigh–Jeans) within x/2 = 2e-7; at the window's
 /// shortest wavelength it is the hottest entry, 1e11 K for the visible.
 const BRIGHT_NM_K: f64 = 1e11 * 360.0;
-/// A channel of no more than this counts as dark; less light than any film holds.
+/// A channel of at most this counts as 0: it is less than any film holds.
 const DARK: f64 = 1e-300;
 /// Entries per unit of ln T. The logarithm's slope and curvature are about x, taken where most of
 /// the channel's light is: the cubic's error is below 1e-6 at x = 20 (1000 K in the visible), 2e-5
@@ -94,9 +94,8 @@ impl BlackbodyTable {
                 .zip(&entries[first..])
                 .map(|(tap, entry)| tap * entry[c])
                 .sum();
-            // A warmer body is brighter at every wavelength. The cubic would swing up where a
-            // channel begins: its sum over a coarse axis may be nothing at one entry, and not at
-            // the next.
+            // A warmer body is brighter at every wavelength, but a cubic would overshoot where a
+            // channel starts: its sum over a coarse axis may be 0 at one entry and not at the next.
             let light = ln
                 .clamp(below[c].min(above[c]), above[c].max(below[c]))
                 .exp();
@@ -120,7 +119,7 @@ impl BlackbodySpectrum {
         let scale = match thermal.curve {
             scene::Curve::Absolute => 1.0,
             scene::Curve::Peak(strength) => {
-                // So cold that f64 knows no light of it: then there is none.
+                // The peak of a very cold body underflows to 0.
                 let peak = planck::peak_radiance(thermal.temperature_k);
                 if peak > 0.0 {
                     (strength / peak).min(f64::MAX)
@@ -137,8 +136,8 @@ impl BlackbodySpectrum {
         }
     }
 
-    /// Has the light of an emissivity that varies tabulated by `table`, which is given what to
-    /// read over ln D.
+    /// The same with a table of its light, if the emissivity is not constant. `table` makes it of a
+    /// function as [`XyzTable::new`] takes it.
     pub(super) fn tabulated(
         mut self,
         axis: LogAxis,
@@ -150,7 +149,7 @@ impl BlackbodySpectrum {
         self
     }
 
-    /// With the table of its light over ln D.
+    /// The same with this table of its light over ln D.
     pub(super) fn with_table(mut self, table: XyzTable) -> Self {
         self.table = Some(table);
         self
@@ -166,7 +165,7 @@ impl BlackbodySpectrum {
         finite(self.scale * self.emissivity.at(nm) * planck::radiance(nm, self.temperature_k))
     }
 
-    /// Writes emissivity times Planck's curve at D·λ, over the largest value, which is returned.
+    /// Writes the shape of emissivity times Planck's curve at D·λ. Returns its factor.
     fn read(&self, shift: f64, axis: LogAxis, out: &mut [f32]) -> f64 {
         let value = |j: usize| {
             let nm = shift * axis.wavelength_nm(j as f64);
@@ -227,12 +226,12 @@ impl BlackbodySpectrum {
         (self.temperature_k, &self.emissivity)
     }
 
-    /// As it is received.
+    /// The light as it is received.
     pub(super) fn received(&self, doppler: Doppler) -> ReceivedBlackbody<'_> {
         let shift = doppler.shift();
         ReceivedBlackbody {
             factor: (self.scale * doppler.black_body()).min(f64::MAX),
-            // A black body at T seen under D is one at D·T: no power of D is left to overflow.
+            // A black body at D·T, and no power of D, which might overflow.
             kelvin: shift * self.temperature_k,
             emissivity: &self.emissivity,
             shift,
@@ -254,7 +253,7 @@ impl ReceivedBlackbody<'_> {
         self.factor * self.emissivity.at(self.shift * nm) * planck::radiance(nm, self.kelvin)
     }
 
-    /// The same of a surface of emissivity 1.
+    /// The same for emissivity 1.
     pub(super) fn black_at(&self, nm: f64) -> f64 {
         self.factor * planck::radiance(nm, self.kelvin)
     }

@@ -14,8 +14,6 @@ pub struct Accuracy {
     pub wavelengths: u32,
     /// Distance of spectral lines, nm.
     pub line_spacing: f64,
-    /// Precision of rays and triangles in rest frames.
-    pub tracing: Precision,
     /// Share of mirrored and refracted light below which it is not followed.
     pub cutoff: f64,
 }
@@ -46,7 +44,6 @@ impl Preset {
             spectra: Spectra::Grid,
             wavelengths: 84,
             line_spacing: 5.0,
-            tracing: Precision::F64,
             cutoff: 1e-4,
         };
         match self {
@@ -80,7 +77,7 @@ pub struct AccuracyKeys {
     /// Distance of the lines that spectra = "lines" holds from 50 to 5000 nm, nm, from 0.5 to 50. Default: 5.
     #[schemars(range(min = 0.5, max = 50))]
     pub line_spacing: Option<f64>,
-    /// Precision of rays and triangles in rest frames; events and boosts are always f64. Default: "f64".
+    /// Precision of rays and triangles in rest frames: "f64", as of events and boosts. Default: "f64".
     pub tracing: Option<Precision>,
     /// Mirrored and refracted light that reaches the camera with no more than this share (the product of the reflectances on its way) is left out, from 0 to 1. Default: 1e-4.
     #[schemars(range(min = 0, max = 1))]
@@ -94,7 +91,6 @@ impl From<AccuracyKeys> for Accuracy {
             spectra: keys.spectra.unwrap_or(preset.spectra),
             wavelengths: keys.wavelengths.unwrap_or(preset.wavelengths),
             line_spacing: keys.line_spacing.unwrap_or(preset.line_spacing),
-            tracing: keys.tracing.unwrap_or(preset.tracing),
             cutoff: keys.cutoff.unwrap_or(preset.cutoff),
         }
     }
@@ -122,7 +118,7 @@ pub enum Spectra {
 pub enum Precision {
     /// 64 bits: 16 digits.
     F64,
-    /// 32 bits: 7 digits, as most renderers have.
+    /// 32 bits: 7 digits. Not supported yet.
     F32,
 }
 

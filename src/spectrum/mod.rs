@@ -5,6 +5,19 @@
 //! Wavelengths are in nm, temperatures in K, spectral radiance in W·m⁻²·sr⁻¹·nm⁻¹, everything f64.
 //! A curve is defined, finite and never negative at every wavelength above 0, since a Doppler shift
 //! may bring any of them into view. Only [`color`](crate::color) is imported.
+//!
+//! # Example
+//! The luminance of a black body of 6500 K, from 84 wavelengths, against the CIE's sum at 1 nm.
+//! ```
+//! use restframe::color::cie::xyz_of;
+//! use restframe::spectrum::{LogAxis, Sensor, planck::radiance};
+//!
+//! let axis = LogAxis::new([360.0, 830.0], 84);
+//! let seen: Vec<f64> = axis.wavelengths_nm().iter().map(|nm| radiance(*nm, 6500.0)).collect();
+//! let [_, luminance, _] = Sensor::cie1931(axis).xyz(&seen);
+//! let [_, exact, _] = xyz_of(|nm| radiance(nm, 6500.0));
+//! assert!((luminance / exact - 1.0).abs() < 1e-4);
+//! ```
 
 mod band;
 mod bound;

@@ -22,19 +22,6 @@ const LARGEST: f64 = 1e280;
 /// The channels are X, Y and Z in cd/m² ([`Sensor::cie1931`]), or the radiance of the long, middle
 /// and short third of the window in W·m⁻²·sr⁻¹ ([`Sensor::bands`]), which methods named after XYZ
 /// return then.
-///
-/// # Example
-/// The luminance of a black body of 6500 K, from 84 wavelengths, against the CIE's sum at 1 nm.
-/// ```
-/// use restframe::color::cie::xyz_of;
-/// use restframe::spectrum::{LogAxis, Sensor, planck::radiance};
-///
-/// let axis = LogAxis::new([360.0, 830.0], 84);
-/// let seen: Vec<f64> = axis.wavelengths_nm().iter().map(|nm| radiance(*nm, 6500.0)).collect();
-/// let [_, luminance, _] = Sensor::cie1931(axis).xyz(&seen);
-/// let [_, exact, _] = xyz_of(|nm| radiance(nm, 6500.0));
-/// assert!((luminance / exact - 1.0).abs() < 1e-4);
-/// ```
 #[derive(Debug, Clone)]
 pub struct Sensor {
     axis: LogAxis,

@@ -6,10 +6,11 @@
 
 use super::results::Percentiles;
 use super::spheres::{Sphere, spheres};
+use crate::accel::Hit;
 use crate::image::compare::Comparison;
 use crate::model::Mesh;
 use crate::render::View;
-use crate::trace::{BodyHit, Scratch, Seen, ShadeTrees, Tracer};
+use crate::trace::{Scratch, Seen, ShadeTrees, Tracer};
 use glam::DVec3;
 use rayon::prelude::*;
 
@@ -77,7 +78,7 @@ impl Exact {
     }
 
     /// The point of the sphere, or of the triangle if it belongs to none.
-    fn point(&self, mesh: &Mesh, hit: &BodyHit) -> DVec3 {
+    fn point(&self, mesh: &Mesh, hit: &Hit) -> DVec3 {
         let corners = mesh.triangles[hit.triangle as usize].map(|i| mesh.positions[i as usize]);
         let [a, b, c] = hit.weights;
         let found = corners[0] * a + corners[1] * b + corners[2] * c;
@@ -97,7 +98,7 @@ fn compare(
     reference: &View<'_>,
     other: &View<'_>,
     size: [u32; 2],
-    stands: impl Fn(&BodyHit) -> DVec3 + Sync,
+    stands: impl Fn(&Hit) -> DVec3 + Sync,
 ) -> Displacement {
     let row = |y: u32| -> Vec<Pixel> {
         let points: Vec<[f64; 2]> = (0..size[0]).map(|x| pixel_center([x, y], size)).collect();
@@ -149,7 +150,7 @@ fn pixel_center([x, y]: [u32; 2], [width, height]: [u32; 2]) -> [f64; 2] {
 
 /// The first hits of the rays through image points; None for no hit, and where a projection has no
 /// ray.
-fn first_hits(view: &View<'_>, points: &[[f64; 2]]) -> Vec<Option<BodyHit>> {
+fn first_hits(view: &View<'_>, points: &[[f64; 2]]) -> Vec<Option<Hit>> {
     let tracer = Tracer {
         shadows: false,
         bounces: 0,

@@ -1,13 +1,17 @@
 //! One timed render of an image, in the same way as every image is rendered, with seconds by phase.
 
 use super::StudyError;
-use super::memory::{forget_peak, peak_mib};
+use crate::accel::Aggregate;
 use crate::film::{Film, develop};
-use crate::queue::{Exposing, Pictures, Taken, pictures, write_atomically};
-use crate::render::{Options, Profile, View, development, motion_mistake, render_profiled};
+use crate::frame::Frame;
+use crate::probe;
+use crate::render::{
+    Exposing, Member, Options, PictureInfo, Pictures, Profile, View, development, encode,
+    render_profiled,
+};
 use crate::scene::Scene;
 use crate::shot::Shot;
-use crate::trace::Stage;
+use crate::store::{forget_peak, peak_memory_mib, write_atomically};
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Instant;
@@ -15,7 +19,7 @@ use std::time::Instant;
 /// A scene and its trees, ready for rays.
 pub(super) struct Bodies {
     pub(super) scene: Scene,
-    pub(super) stage: Stage,
+    pub(super) stage: Aggregate,
 }
 
 /// The image whose variants are rendered.
@@ -30,10 +34,10 @@ pub(super) struct Subject {
 
 impl Subject {
     /// The subject of a shot.
-    pub(super) fn new(shot: &Shot, frame: u32, exposing: &Exposing, scratch: PathBuf) -> Self {
+    pub(super) fn new(frame: &Frame<'_>, exposing: &Exposing, scratch: PathBuf) -> Self {
         Self {
-            frame,
-            stops: exposing.stops(frame, shot.shot.frames),
+            frame: frame.number,
+            stops: exposing.stops(frame),
             scratch,
         }
     }
@@ -99,8 +103,8 @@ impl Variant {
     /// The image, ready for rays.
     pub(super) fn view(&self, subject: &Subject) -> Result<View<'_>, StudyError> {
         let (scene, stage) = (&self.bodies.scene, &self.bodies.stage);
-        let view = View::new(&self.shot, subject.frame, &self.shot.effects, scene, stage);
-        Ok(view.map_err(|error| motion_mistake(&self.shot, &error))?)
+        let frame = Frame::new(&self.shot, subject.frame)?;
+        Ok(View::new(&frame, &frame.effects, scene, stage))
     }
 
     /// Renders the variant once.
@@ -109,24 +113,18 @@ impl Variant {
         let profile = Profile::default();
         let (scene, stage) = (&self.bodies.scene, &self.bodies.stage);
         let begun = Instant::now();
-        let film = render_profiled(
-            &self.shot,
-            subject.frame,
-            scene,
-            stage,
-            &self.options,
-            &|_| (),
-            Some(&profile),
-        )
-        .map_err(|error| motion_mistake(&self.shot, &error))?;
+        let frame = &Frame::new(&self.shot, subject.frame)?;
+        let film = render_profiled(frame, scene, stage, &self.options, &|_| (), Some(&profile));
         let rendered = Instant::now();
-        let Pictures { files, .. } = pictures(
-            &self.shot,
-            subject.frame,
+        let member = Member { frame, scene };
+        let size = [film.width, film.height];
+        let insets = probe::insets(member, stage, subject.stops, size);
+        let Pictures { files, .. } = encode(
+            frame,
             scene,
-            stage,
             &film,
-            Taken {
+            &insets,
+            PictureInfo {
                 exposure_stops: subject.stops,
                 samples: self.options.samples,
                 fingerprint: None,
@@ -137,12 +135,12 @@ impl Variant {
             write_atomically(&name, bytes)?;
         }
         let ended = Instant::now();
-        let memory_mib = peak_mib().filter(|_| counts);
+        let memory_mib = peak_memory_mib().filter(|_| counts);
         let seconds = profile.seconds();
         let threads = rayon::current_num_threads() as f64;
         // Repeated to time it alone, since it is part of making the files.
         let again = Instant::now();
-        let developed = develop(&film, &development(&self.shot, subject.stops));
+        let developed = develop(&film, &development(frame.sensor.color, subject.stops));
         let developing = again.elapsed().as_secs_f64();
         drop(developed);
         let writing = (ended - rendered).as_secs_f64() - developing;

@@ -16,18 +16,10 @@ pub enum Phase {
     Surfaces,
 }
 
-/// One of so many shadow rays is timed, by a hash of their number, so that it is not always that to
-/// the same lamp: reading the clock takes a tenth of the time of a short one.
-const TIMED_SHADOWS: u64 = 8;
-
-/// Knuth's multiplicative hash, 2⁶⁴ over the golden ratio.
-const GOLDEN: u64 = 0x9e37_79b9_7f4a_7c15;
-
 /// One thread's seconds by phase.
 #[derive(Debug, Default)]
 pub struct Clock {
     nanoseconds: [Cell<u64>; 4],
-    shadows: Cell<u64>,
 }
 
 impl Clock {
@@ -40,22 +32,6 @@ impl Clock {
         let sum = &self.nanoseconds[phase as usize];
         sum.set(sum.get() + nanoseconds);
     }
-}
-
-/// Runs [`Phase::Shadow`] for one ray, some of which are timed and stand for the rest.
-#[inline(always)]
-pub(super) fn timed_shadow<T>(clock: Option<&Clock>, work: impl FnOnce() -> T) -> T {
-    let Some(clock) = clock else { return work() };
-    let number = clock.shadows.get();
-    clock.shadows.set(number + 1);
-    if (number.wrapping_mul(GOLDEN) >> 32) % TIMED_SHADOWS != 0 {
-        return work();
-    }
-    let begun = Instant::now();
-    let done = work();
-    let nanoseconds = begun.elapsed().as_nanos() as u64;
-    clock.add(Phase::Shadow, nanoseconds * TIMED_SHADOWS);
-    done
 }
 
 /// Runs a phase, on the clock if there is one.

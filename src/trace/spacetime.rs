@@ -1,59 +1,9 @@
-//! How the worldlines of one image stand to each other: a transform for each pair, composed once.
+//! How the worldlines of one image move relative to each other: a transform for each pair, composed
+//! once.
 
-use crate::relativity::{Boost, Event, FourVector, SeenLight, Transform, Worldline};
+use super::link::Link;
+use crate::relativity::{Boost, Event, SeenLight, Transform, Worldline};
 use crate::scene::Scene;
-use glam::DVec3;
-
-/// The map from one worldline's rest frame to another's.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Link {
-    /// As special relativity has it.
-    Finite(Transform),
-    /// As if light were infinitely fast: positions by translation, directions the same in all
-    /// frames; frequencies still by the Doppler formula, for that direction.
-    Snapshot {
-        /// Positions.
-        transform: Transform,
-        /// Frequencies.
-        doppler: Boost,
-    },
-}
-
-impl Link {
-    /// An event in the other frame.
-    pub fn event(&self, e: Event) -> Event {
-        match self {
-            Self::Finite(transform) | Self::Snapshot { transform, .. } => transform.event(e),
-        }
-    }
-
-    /// A difference of events in the other frame.
-    pub fn vector(&self, v: FourVector) -> FourVector {
-        match self {
-            Self::Finite(transform) | Self::Snapshot { transform, .. } => transform.vector(v),
-        }
-    }
-
-    /// Light of unit direction of travel `n` in the other frame.
-    #[inline(always)]
-    pub fn light(&self, n: DVec3) -> SeenLight {
-        match self {
-            Self::Finite(transform) => transform.light(n),
-            Self::Snapshot { doppler, .. } => SeenLight {
-                direction: n,
-                ..doppler.light_of_unit(n)
-            },
-        }
-    }
-
-    /// Whether directions and frequencies are the same in both frames.
-    pub fn is_translation(&self) -> bool {
-        match self {
-            Self::Finite(transform) => transform.is_translation(),
-            Self::Snapshot { doppler, .. } => doppler.is_identity(),
-        }
-    }
-}
 
 /// All links of an image.
 #[derive(Debug, Clone)]

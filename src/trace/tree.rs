@@ -4,7 +4,7 @@
 //! A tree's nodes stand together, parents before children. Each keeps the one Doppler factor of
 //! its whole way to the camera: shifts in a row are one shift by their product.
 
-use super::stage::BodyHit;
+use crate::accel::Hit;
 use glam::DVec3;
 
 /// Shade trees of some camera rays.
@@ -108,10 +108,10 @@ pub struct Surface {
     /// When the light left, in the surface's rest frame, metres of light travel.
     pub time: f64,
     /// What was hit where.
-    pub hit: BodyHit,
-    /// Its lamps: this many …
+    pub hit: Hit,
+    /// How many lamps light it.
     pub lamps: u32,
-    /// … from this index of [`ShadeTrees::direct`] on.
+    /// Index of the first of them into [`ShadeTrees::direct`].
     pub first_lamp: u32,
 }
 

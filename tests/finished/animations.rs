@@ -110,7 +110,7 @@ fn many_colors_are_near_in_a_gif_and_what_stands_still_does_not_flicker() {
 fn a_second_pass_makes_what_is_not_there_or_of_other_frames() {
     let desk = Desk::small("apng = true\ngif = true");
     let finished = || {
-        finish(&mut desk.reel(), &|_| {}, &Stop::default())
+        finish(&mut desk.shot_folder(), &|_| {}, &Stop::default())
             .unwrap()
             .len()
     };

@@ -4,8 +4,8 @@ use crate::common::desk::{self as common, Outcome};
 use restframe::film::{Developed, Layers};
 use restframe::image::Metadata;
 use restframe::image::exr::Depth;
-use restframe::queue::{FileRecord, FrameList, Record, Reel, Request, Seconds};
 use restframe::shot;
+use restframe::store::{FileRecord, Record, Request, Seconds, ShotFolder};
 use serde_json::Value;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -140,20 +140,19 @@ impl Desk {
     }
 
     /// The shot's frames.
-    pub(crate) fn reel(&self) -> Reel {
+    pub(crate) fn shot_folder(&self) -> ShotFolder {
         let shot = shot::load(&self.path("passing.toml")).unwrap();
         let request = Request {
             out: self.path("renders"),
-            frames: FrameList::all(),
             scale: 1.0,
             samples: None,
         };
-        Reel::open(&shot, &request).unwrap()
+        ShotFolder::open(&shot, &request).unwrap()
     }
 
     /// Records every frame as it is now, as if it had been rendered so.
     pub(crate) fn record(&self) {
-        record(&self.reel());
+        record(&self.shot_folder());
     }
 
     /// The 8-bit values of a frame's PNG.
@@ -196,7 +195,7 @@ impl Desk {
     /// What a picture says of itself that is of this frame, as the shot stands.
     fn metadata(&self, frame: u32) -> Metadata {
         Metadata {
-            fingerprint: Some(self.reel().keys.frame(frame).fingerprint),
+            fingerprint: Some(self.shot_folder().keys.frame(frame).fingerprint),
             ..Metadata::default()
         }
     }
@@ -230,13 +229,13 @@ pub(crate) fn apart(a: &[u8], b: &[u8]) -> f64 {
     (squares.sum::<f64>() / a.len() as f64).sqrt()
 }
 
-/// Records every frame of a reel as it is now, as if it had been rendered so.
-pub(crate) fn record(reel: &Reel) {
+/// Records every frame of a shot_folder as it is now, as if it had been rendered so.
+pub(crate) fn record(shot_folder: &ShotFolder) {
     let mut lines = String::new();
-    for frame in 1..=reel.shot().shot.frames {
-        let key = reel.keys.frame(frame);
-        let files = reel.files(frame).into_iter().filter_map(|name| {
-            let bytes = fs::read(reel.folder.join(&name)).ok()?;
+    for frame in 1..=shot_folder.shot().shot.frames {
+        let key = shot_folder.keys.frame(frame);
+        let files = shot_folder.files(frame).into_iter().filter_map(|name| {
+            let bytes = fs::read(shot_folder.path.join(&name)).ok()?;
             Some(FileRecord {
                 name,
                 bytes: bytes.len() as u64,
@@ -246,10 +245,10 @@ pub(crate) fn record(reel: &Reel) {
         let record = Record {
             frame,
             fingerprint: key.fingerprint,
-            parts: key.parts,
+            parts: key.inputs,
             files: files.collect(),
-            size: reel.keys.picture().size,
-            samples: reel.keys.picture().samples,
+            size: shot_folder.keys.resolution().size,
+            samples: shot_folder.keys.resolution().samples,
             effects: Vec::new(),
             trace: key.trace,
             shared: 1,
@@ -267,6 +266,6 @@ pub(crate) fn record(reel: &Reel) {
         lines += &serde_json::to_string(&record).unwrap();
         lines.push('\n');
     }
-    let name = reel.names.manifest(Some([9, 9]));
-    fs::write(reel.folder.join(name), lines).unwrap();
+    let name = shot_folder.names.manifest(Some([9, 9]));
+    fs::write(shot_folder.path.join(name), lines).unwrap();
 }

@@ -1,7 +1,7 @@
 //! What `restframe verify` finds.
 
 use super::desk::{Desk, FRAMES, SMALL, record};
-use restframe::queue::{FrameList, Reel, Request};
+use restframe::store::{Request, ShotFolder};
 use restframe::{sequence, shot};
 use std::fs;
 use std::path::Path;
@@ -118,7 +118,7 @@ fn what_does_not_belong_to_the_shot_is_an_orphan() {
         "passing.0011.png",
         "passing.0003.exr",
         "passing.00004.png",
-        "passing.0002.png.17-0.tmp",
+        "passing.0002.png.aB3xY9.tmp",
         "passing.gif",
         "passing.apng",
         "notes.txt",
@@ -131,7 +131,7 @@ fn what_does_not_belong_to_the_shot_is_an_orphan() {
         desk.findings(),
         [
             "orphan passing.00004.png",
-            "orphan passing.0002.png.17-0.tmp",
+            "orphan passing.0002.png.aB3xY9.tmp",
             "orphan passing.0003.exr",
             "orphan passing.0011.png",
             "orphan passing.gif",
@@ -208,14 +208,13 @@ fn ramps_of_velocity_pans_and_flights_have_no_outliers() {
         assert!(rendered.success());
         let request = Request {
             out: folder.path().to_owned(),
-            frames: FrameList::all(),
             scale: 0.1,
             samples: Some(1),
         };
-        let mut reel = Reel::open(&shot::load(&path).unwrap(), &request).unwrap();
-        record(&reel);
-        reel.refresh().unwrap();
-        assert_eq!(sequence::verify(&reel).findings, [], "{name}");
+        let mut shot_folder = ShotFolder::open(&shot::load(&path).unwrap(), &request).unwrap();
+        record(&shot_folder);
+        shot_folder.refresh().unwrap();
+        assert_eq!(sequence::verify(&shot_folder).findings, [], "{name}");
     }
 }
 

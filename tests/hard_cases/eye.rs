@@ -3,18 +3,21 @@
 
 use super::scene::Set;
 use glam::DVec3;
+use restframe::accel::Aggregate;
+use restframe::accel::Hit;
+use restframe::frame::Frame;
 use restframe::model::Mesh;
 use restframe::probe::{Probe, probe};
 use restframe::render::View;
 use restframe::scene::Scene;
-use restframe::trace::{BodyHit, Root, Scratch, Seen, ShadeTrees, Stage};
+use restframe::trace::{Root, Scratch, Seen, ShadeTrees, build_aggregate};
 
 /// A frame of a set, ready for rays.
 pub(crate) struct Eye<'a> {
     set: &'a Set,
     frame: u32,
     pub(crate) scene: Scene,
-    pub(crate) stage: Stage,
+    pub(crate) stage: Aggregate,
 }
 
 /// What a ray meets first.
@@ -22,7 +25,7 @@ pub(crate) struct Eye<'a> {
 pub(crate) struct Met {
     /// Length of the light path in the camera's rest frame.
     pub(crate) s: f64,
-    pub(crate) hit: BodyHit,
+    pub(crate) hit: Hit,
     pub(crate) worldline: usize,
 }
 
@@ -34,13 +37,18 @@ impl<'a> Eye<'a> {
     /// Another frame than the first.
     pub(crate) fn in_frame(set: &'a Set, frame: u32) -> Self {
         let prepared = &set.prepared;
-        let scene = Scene::resolve(&prepared.shot, &prepared.library, frame, None).unwrap();
+        let scene = Scene::resolve(
+            &Frame::new(&prepared.shot, frame).unwrap(),
+            &prepared.library,
+            None,
+        )
+        .unwrap();
         Self::of(set, frame, scene)
     }
 
     /// A scene that stands in for the set's own.
     pub(crate) fn of(set: &'a Set, frame: u32, scene: Scene) -> Self {
-        let stage = Stage::build(&scene.geometry, None);
+        let stage = build_aggregate(&scene.geometry, None);
         Self {
             set,
             frame,
@@ -51,7 +59,12 @@ impl<'a> Eye<'a> {
 
     pub(crate) fn view(&self) -> View<'_> {
         let shot = &self.set.prepared.shot;
-        View::new(shot, self.frame, &shot.effects, &self.scene, &self.stage).unwrap()
+        View::new(
+            &Frame::new(shot, self.frame).unwrap(),
+            &shot.effects,
+            &self.scene,
+            &self.stage,
+        )
     }
 
     /// What the centres of all pixels see, row by row, at exposure 0.
@@ -62,7 +75,13 @@ impl<'a> Eye<'a> {
         (0..width * height)
             .map(|i| {
                 let pixel = [i % width, i / width];
-                probe(shot, self.frame, pixel, &view, &self.scene, 0.0)
+                probe(
+                    &Frame::new(shot, self.frame).unwrap(),
+                    pixel,
+                    &view,
+                    &self.scene,
+                    0.0,
+                )
             })
             .collect()
     }

@@ -2,10 +2,11 @@
 
 use super::scene::Set;
 use glam::DVec3;
+use restframe::frame::Frame;
 use restframe::probe::{Probe, ProbeNode};
 use restframe::relativity::{Boost, Celerity};
 use restframe::render::View;
-use restframe::trace::{Scratch, Seen, ShadeTrees, Stage};
+use restframe::trace::{Scratch, Seen, ShadeTrees, build_aggregate};
 
 const EPSILON: f64 = f64::EPSILON;
 
@@ -197,8 +198,8 @@ cases! {
         let total = |set: &Set, direction: DVec3| {
             let shot = &set.prepared.shot;
             let scene = set.scene();
-            let stage = Stage::build(&scene.geometry, None);
-            let view = View::new(shot, 1, &shot.effects, &scene, &stage).unwrap();
+            let stage = build_aggregate(&scene.geometry, None);
+            let view = View::new(&Frame::new(shot, 1).unwrap(), &shot.effects, &scene, &stage);
             let mut trees = ShadeTrees::default();
             view.tracer().trace(&[direction], &mut Scratch::default(), &mut trees);
             let glass = scene.materials[0].bsdf.refraction().unwrap().0 as u32;

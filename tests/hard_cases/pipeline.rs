@@ -8,10 +8,11 @@ use rayon::ThreadPoolBuilder;
 use rayon::prelude::*;
 use restframe::color::cie;
 use restframe::film::Film;
+use restframe::frame::Frame;
 use restframe::render::View;
 use restframe::shade::ShadeScratch;
 use restframe::spectrum::{Spectrum, planck};
-use restframe::trace::{Samples, Scratch, ShadeTrees, Stage};
+use restframe::trace::{Samples, Scratch, ShadeTrees, build_aggregate};
 
 /// G4's Lorentz factors, as they are written in a shot.
 const LORENTZ_FACTORS: [&str; 6] = ["1", "1.000000000001", "2", "10", "1e3", "1e6"];
@@ -196,8 +197,8 @@ exposure = 0
 fn backwards(set: &Set) -> Vec<[f32; 3]> {
     let shot = &set.prepared.shot;
     let scene = set.scene();
-    let stage = Stage::build(&scene.geometry, None);
-    let view = View::new(shot, 1, &shot.effects, &scene, &stage).unwrap();
+    let stage = build_aggregate(&scene.geometry, None);
+    let view = View::new(&Frame::new(shot, 1).unwrap(), &shot.effects, &scene, &stage);
     let [width, height] = shot.image.size;
     let samples = Samples::new(shot.image.samples, shot.image.filter);
     let (mut scratch, mut shading) = (Scratch::default(), ShadeScratch::default());

@@ -1,11 +1,12 @@
 //! Small scenes, written to a folder of their own: shots of one wall, box or ball.
 
 use restframe::film::Film;
+use restframe::frame::Frame;
 use restframe::probe::{Probe, probe};
-use restframe::queue::Prepared;
+use restframe::render::Prepared;
 use restframe::render::{Options, View, render};
 use restframe::scene::Scene;
-use restframe::trace::Stage;
+use restframe::trace::build_aggregate;
 
 /// A sky of 4 × 3 texels as a Radiance file, in letters: three of mantissa and an exponent of 127
 /// make m/512.
@@ -59,20 +60,21 @@ impl Set {
     pub(crate) fn probe(&self, pixel: [u32; 2]) -> Probe {
         let shot = &self.prepared.shot;
         let scene = self.scene();
-        let stage = Stage::build(&scene.geometry, None);
-        let view = View::new(shot, 1, &shot.effects, &scene, &stage).unwrap();
-        let stops = self
-            .prepared
-            .exposure()
-            .unwrap()
-            .0
-            .stops(1, shot.shot.frames);
-        probe(shot, 1, pixel, &view, &scene, stops)
+        let stage = build_aggregate(&scene.geometry, None);
+        let frame = Frame::new(shot, 1).unwrap();
+        let view = View::new(&frame, &shot.effects, &scene, &stage);
+        let stops = self.prepared.exposure().unwrap().0.stops(&frame);
+        probe(&frame, pixel, &view, &scene, stops)
     }
 
     /// Frame 1, resolved.
     pub(crate) fn scene(&self) -> Scene {
-        Scene::resolve(&self.prepared.shot, &self.prepared.library, 1, None).unwrap()
+        Scene::resolve(
+            &Frame::new(&self.prepared.shot, 1).unwrap(),
+            &self.prepared.library,
+            None,
+        )
+        .unwrap()
     }
 
     /// Frame 1 as the film has it, with all layers.
@@ -84,7 +86,7 @@ impl Set {
     pub(crate) fn film_of(&self, scene: &Scene) -> Film {
         use restframe::shot::Layer::{Distance, Doppler, EmissionTime, Worldline};
         let shot = &self.prepared.shot;
-        let stage = Stage::build(&scene.geometry, None);
+        let stage = build_aggregate(&scene.geometry, None);
         let [width, height] = shot.image.size;
         let options = Options {
             width,
@@ -92,7 +94,13 @@ impl Set {
             samples: shot.image.samples,
             layers: vec![Distance, Doppler, EmissionTime, Worldline],
         };
-        render(shot, 1, scene, &stage, &options, &|_| ()).unwrap()
+        render(
+            &Frame::new(shot, 1).unwrap(),
+            scene,
+            &stage,
+            &options,
+            &|_| (),
+        )
     }
 }
 

@@ -4,9 +4,10 @@ use super::eye::{Dice, Eye, Met, across, inner_radius, plane, sphere, triangles}
 use super::scene::Set;
 use glam::DVec3;
 use rayon::prelude::*;
+use restframe::accel::{Hit, Ray};
 use restframe::relativity::Event;
 use restframe::scene::Scene;
-use restframe::trace::{BodyHit, RestRay, Spacetime, Stage, boost_directions};
+use restframe::trace::{Spacetime, boost_directions, build_aggregate};
 
 /// One pixel, and what bodies are made of.
 const HEAD: &str = "[image]\nsize = [1, 1]\n[sensor]\nexposure = 0\n\
@@ -39,11 +40,28 @@ fn in_rest(eye: &Eye<'_>, seen: &[DVec3]) -> Vec<DVec3> {
 }
 
 fn directions(eye: &Eye<'_>, to: usize, from: usize, given: &[DVec3]) -> Vec<DVec3> {
-    let mut out = Vec::new();
-    boost_directions(eye.view().spacetime().link(to, from), given, &mut out);
-    out.iter()
-        .map(|(direction, _)| direction.normalize())
+    boosted(eye.view().spacetime(), to, from, given)
+        .0
+        .iter()
+        .map(|direction| direction.normalize())
         .collect()
+}
+
+/// Boosted directions, and ratios of frequencies.
+fn boosted(
+    spacetime: &Spacetime,
+    to: usize,
+    from: usize,
+    given: &[DVec3],
+) -> (Vec<DVec3>, Vec<f64>) {
+    let (mut directions, mut ratios) = (Vec::new(), Vec::new());
+    boost_directions(
+        spacetime.link(to, from),
+        given,
+        &mut directions,
+        &mut ratios,
+    );
+    (directions, ratios)
 }
 
 /// How many of `millions` of rays miss: half of them evenly over the camera's sky, half over the
@@ -84,14 +102,13 @@ fn leaks(eye: &Eye<'_>) -> usize {
 
 /// What a camera ray meets on one worldline alone: the hit, and its lab time.
 fn alone(eye: &Eye<'_>, spacetime: &Spacetime, worldline: usize, direction: DVec3) -> Option<f64> {
-    let mut boosted = Vec::new();
-    boost_directions(spacetime.link(worldline, 0), &[direction], &mut boosted);
+    let (directions, _) = boosted(spacetime, worldline, 0, &[direction]);
     let event = spacetime.camera_event(worldline);
-    let ray = RestRay {
+    let ray = Ray {
         origin: event.x,
-        direction: boosted[0].0,
+        direction: directions[0],
     };
-    let hit = eye.stage.nearest(worldline, &ray, f64::INFINITY)?;
+    let hit = eye.stage.intersect_ray(worldline, &ray, f64::INFINITY)?;
     let emission = Event::new(event.t - hit.t, event.x + ray.direction * hit.t);
     Some(spacetime.link(0, worldline).event(emission).t)
 }
@@ -176,8 +193,8 @@ cases! {
             let hit = met.unwrap().hit;
             let (normal, distance) = planes[hit.triangle as usize];
             off = off.max((hit.t - distance / normal.dot(direction)).abs());
-            let beyond = RestRay { origin: direction * (hit.t + 1e-12), direction };
-            twice += u32::from(eye.stage.blocks(1, &beyond, f64::INFINITY));
+            let beyond = Ray { origin: direction * (hit.t + 1e-12), direction };
+            twice += u32::from(eye.stage.occludes_ray(1, &beyond, f64::INFINITY));
         }
         card.at_most("rest-frame distance of 1e5 points, off their facets", off, 1e-12);
         card.same("second hits of these rays", 0.0, f64::from(twice));
@@ -258,13 +275,13 @@ cases! {
         for instance in geometry.instances.iter_mut().step_by(2) {
             instance.double_sided = false;
         }
-        let stage = Stage::build(&geometry, None);
+        let stage = build_aggregate(&geometry, None);
         let targets: Vec<DVec3> = geometry.instances.iter().flat_map(|instance| {
             let place = instance.rest_from_mesh;
             triangles(&geometry.meshes[instance.mesh as usize])
                 .flat_map(move |[a, b, c]| [a, a / 2.0 + b / 2.0, (a + b + c) / 3.0].map(|p| place.transform_point3(p)))
         }).collect();
-        let bits = |hit: Option<BodyHit>| hit.map(|h| {
+        let bits = |hit: Option<Hit>| hit.map(|h| {
             (h.t.to_bits(), h.instance, h.triangle, h.weights.map(f64::to_bits))
         });
         let compare = |i: u64| -> [u32; 2] {
@@ -278,12 +295,12 @@ cases! {
             };
             let aim = target - origin;
             let direction = if i % 4 == 3 || aim == DVec3::ZERO { dice.direction() } else { aim.normalize() };
-            let ray = RestRay { origin, direction };
-            let first = stage.nearest_of_all(1, &ray, f64::INFINITY);
+            let ray = Ray { origin, direction };
+            let first = stage.intersect_without_trees(1, &ray, f64::INFINITY);
             let reach = first.map_or(1.0, |hit| hit.t);
             // Also just as far as that, and not as far.
             let differ = [f64::INFINITY, reach, reach * 0.999].map(|reach| {
-                bits(stage.nearest(1, &ray, reach)) != bits(stage.nearest_of_all(1, &ray, reach))
+                bits(stage.intersect_ray(1, &ray, reach)) != bits(stage.intersect_without_trees(1, &ray, reach))
             });
             [u32::from(differ.contains(&true)), u32::from(first.is_some())]
         };
@@ -333,15 +350,14 @@ cases! {
 /// Rays that meet bodies of the lab and of worldline 2 at the same parameter, to the bit.
 fn ties(scene: &Scene) -> usize {
     let spacetime = Spacetime::new(scene, true);
-    let stage = Stage::build(&scene.geometry, None);
+    let stage = build_aggregate(&scene.geometry, None);
     let meets = |worldline: usize, direction: DVec3| {
-        let mut out = Vec::new();
-        boost_directions(spacetime.link(worldline, 0), &[direction], &mut out);
-        let ray = RestRay {
+        let (directions, ratios) = boosted(&spacetime, worldline, 0, &[direction]);
+        let ray = Ray {
             origin: spacetime.camera_event(worldline).x,
-            direction: out[0].0,
+            direction: directions[0],
         };
-        Some(stage.nearest(worldline, &ray, f64::INFINITY)?.t / out[0].1)
+        Some(stage.intersect_ray(worldline, &ray, f64::INFINITY)?.t / ratios[0])
     };
     let tied = |i: &i32| {
         let direction = scene

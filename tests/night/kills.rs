@@ -1,7 +1,7 @@
 //! Killed without a word.
 
 use super::desk::{PASSING, passing};
-use restframe::queue::{FrameList, Reel, Request, Status};
+use restframe::store::{Request, ShotFolder, Status};
 use std::io::{BufRead, BufReader};
 use std::time::Instant;
 
@@ -48,17 +48,16 @@ fn after_ten_kills_every_frame_is_whole_or_absent_and_the_bytes_are_those_of_one
         let shot = restframe::shot::load(&desk.path("passing.toml")).unwrap();
         let request = Request {
             out: desk.path("torn"),
-            frames: FrameList::all(),
             scale: 1.0,
             samples: None,
         };
-        let reel = Reel::open(&shot, &request).unwrap();
+        let shot_folder = ShotFolder::open(&shot, &request).unwrap();
         for frame in 1..=FRAMES {
-            let status = reel.status(frame, &reel.keys.frame(frame));
+            let status = shot_folder.status(frame, &shot_folder.keys.frame(frame));
             let is_sound = match &status {
                 Status::Fresh | Status::Missing => true,
                 // Killed between the formats: the frame is rendered anew.
-                Status::Stale { because } => because.ends_with(" is missing"),
+                Status::Stale { reason } => reason.ends_with(" is missing"),
             };
             assert!(is_sound, "frame {frame}: {status:?}");
         }

@@ -1,13 +1,17 @@
 //! The plates are frames of their animations, to the last bit.
 
 use super::thumbnail::{film, prepared};
+use restframe::frame::Frame;
 
 fn same(animation: &str, frames: &[(u32, u32)]) {
     let prepared_animation = prepared(animation);
     for &(plate, frame) in frames {
         let stem = format!("plate-{plate:02}");
-        let exposed = |p: &restframe::queue::Prepared| {
-            p.exposure().unwrap().0.stops(frame, p.shot.shot.frames)
+        let exposed = |p: &restframe::render::Prepared| {
+            p.exposure()
+                .unwrap()
+                .0
+                .stops(&Frame::new(&p.shot, frame).unwrap())
         };
         let plate = prepared(&stem);
         assert_eq!(exposed(&plate), exposed(&prepared_animation), "{stem}");
@@ -52,7 +56,7 @@ fn plate_2_is_the_last_frame_of_the_lattice() {
 #[test]
 fn in_absolute_units_surface_color_never_comes_back() {
     let (rows, absolute) = (prepared("rows"), prepared("rows-absolute"));
-    let luminance = |prepared: &restframe::queue::Prepared, frame: u32| {
+    let luminance = |prepared: &restframe::render::Prepared, frame: u32| {
         film(prepared, frame)
             .xyz
             .iter()

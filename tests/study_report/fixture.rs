@@ -98,9 +98,9 @@ fn spectra() -> Sweep {
 }
 
 /// Errors without color, of displacement, zero and none at all.
-fn tracing() -> Sweep {
+fn tessellation() -> Sweep {
     let geometry = |setting: &str, seconds, radiance, displacement| Point {
-        toml: Some(format!("tracing = \"{setting}\"")),
+        toml: Some(format!("triangles = \"{setting}\"")),
         errors: Some(Errors {
             radiance,
             displacement: Some(Percentiles {
@@ -114,9 +114,9 @@ fn tracing() -> Sweep {
         ..point(setting, setting, seconds, None)
     };
     let mut points = vec![
-        geometry("f32", 0.1091, 0.0, 3.2e-5),
-        geometry("f64", 0.1124, 0.0, 0.0),
-        point("f64, meshes twice as fine", "f64", 0.1503, None),
+        geometry("coarse", 0.1091, 0.0, 3.2e-5),
+        geometry("fine", 0.1124, 0.0, 0.0),
+        point("fine, meshes twice as fine", "fine", 0.1503, None),
     ];
     points[2].memory_mib = None;
     points[2].toml = None;
@@ -125,10 +125,10 @@ fn tracing() -> Sweep {
         point.phase = point.frame;
     }
     Sweep {
-        knob: "accuracy.tracing".to_owned(),
-        what: "the precision of rays and triangles in rest frames".to_owned(),
+        knob: "tessellation".to_owned(),
+        what: "the triangles of spheres".to_owned(),
         phase: "traverse",
-        reference: "f64 & meshes of <twice> the fineness".to_owned(),
+        reference: "fine & meshes of <twice> the fineness".to_owned(),
         points,
         note: Some("The image has but one worldline".to_owned()),
         halving: Vec::new(),
@@ -310,7 +310,7 @@ pub(crate) fn study() -> Study {
             too_noisy: false,
         },
         phases: phases(),
-        sweeps: vec![spectra(), tracing(), broken(), nothing_to_sweep()],
+        sweeps: vec![spectra(), tessellation(), broken(), nothing_to_sweep()],
         effects: effects(),
         paper: vec![
             PaperRow {

@@ -1,7 +1,8 @@
 //! A plan in words.
 
-use super::{Planned, Run, Totals};
-use crate::queue::{Reel, Status, effect_names};
+use super::Run;
+use crate::queue::{FrameForecast, Totals};
+use crate::store::{ShotFolder, Status};
 use indexmap::IndexMap;
 
 pub(super) fn word(status: &Status) -> &'static str {
@@ -12,9 +13,9 @@ pub(super) fn word(status: &Status) -> &'static str {
     }
 }
 
-/// What there is to do, in a few lines.
-pub(super) fn head(reel: &Reel, totals: &Totals) -> String {
-    let picture = reel.keys.picture();
+/// The work to do, in a few lines.
+pub(super) fn head(shot_folder: &ShotFolder, totals: &Totals) -> String {
+    let picture = shot_folder.keys.resolution();
     let [width, height] = picture.size;
     let left = totals.frames - totals.fresh;
     let basis = match (left, totals.measured) {
@@ -24,7 +25,7 @@ pub(super) fn head(reel: &Reel, totals: &Totals) -> String {
     };
     format!(
         "{}: {}, {width} x {height} pixels, {}, {}\n{} fresh, {} stale, {} missing: about {}{basis}\nabout {} of memory, {} of disk",
-        reel.shot().path.display(),
+        shot_folder.shot().path.display(),
         counted(totals.frames, "frame"),
         counted(picture.samples as usize, "sample"),
         counted(totals.traces, "trace"),
@@ -39,13 +40,13 @@ pub(super) fn head(reel: &Reel, totals: &Totals) -> String {
 
 pub(super) fn line(run: &Run) -> String {
     let (first, [last_frame, last_trace]) = (&run.first, run.last);
-    let effects = effect_names(&first.called);
+    let effects = first.called.names();
     let effects = match effects.as_slice() {
         [] => "no effects".to_owned(),
         names => names.join(", "),
     };
     let status = match &first.status {
-        Status::Stale { because } => format!("stale because {because}"),
+        Status::Stale { reason } => format!("stale because {reason}"),
         status => word(status).to_owned(),
     };
     let frames = span("frame", first.frame, last_frame);
@@ -53,11 +54,11 @@ pub(super) fn line(run: &Run) -> String {
     format!("{frames}  {status}  {effects}  {traces}")
 }
 
-/// Why effects are called for, those of one reason together.
-pub(super) fn sentences(planned: &Planned) -> Vec<String> {
-    let names = effect_names(&planned.called);
+/// Reasons for the effects, with those of the same reason together.
+pub(super) fn sentences(planned: &FrameForecast) -> Vec<String> {
+    let names = planned.called.names();
     let mut effects: IndexMap<&str, Vec<&str>> = IndexMap::new();
-    for reason in &planned.called.because {
+    for reason in &planned.called.reasons {
         if names.iter().any(|name| name == reason.effect) {
             effects.entry(&reason.why).or_default().push(reason.effect);
         }

@@ -3,9 +3,9 @@
 //! The drawing holds bars alone and is stretched to the page's width, so that 1000 frames find
 //! room; what is written beside it is text of the page, which keeps its size.
 
-use super::view::View;
+use super::frame_row::FrameRow;
 use crate::plot::quantity::{number, time, unit_of_time};
-use crate::queue::Seconds;
+use crate::store::Seconds;
 use maud::{Markup, html};
 
 /// The name of a phase, and its part of a frame's seconds.
@@ -27,10 +27,10 @@ const PITCH: f64 = 10.0;
 const GAP: f64 = 1.0;
 
 /// The section; none where no frame has a record.
-pub(super) fn section(views: &[View<'_>]) -> Markup {
-    let longest = views
+pub(super) fn section(rows: &[FrameRow<'_>]) -> Markup {
+    let longest = rows
         .iter()
-        .filter_map(|view| view.record)
+        .filter_map(|row| row.record)
         .map(|record| record.seconds.total())
         .filter(|seconds| seconds.is_finite())
         .fold(0.0, f64::max);
@@ -41,7 +41,7 @@ pub(super) fn section(views: &[View<'_>]) -> Markup {
                 ul.legend { @for (i, (phase, _)) in PHASES.iter().enumerate() {
                     li { span class={ "swatch p" (i + 1) } { } (phase) }
                 } }
-                (drawing(views, &Scale::to(longest)))
+                (drawing(rows, &Scale::to(longest)))
             }
         }
     }
@@ -92,8 +92,8 @@ impl Scale {
     }
 }
 
-fn drawing(views: &[View<'_>], scale: &Scale) -> Markup {
-    let width = PITCH * views.len() as f64;
+fn drawing(rows: &[FrameRow<'_>], scale: &Scale) -> Markup {
+    let width = PITCH * rows.len() as f64;
     html! {
         figure.seconds {
             div.scale aria-hidden="true" { @for tick in scale.ticks() {
@@ -106,11 +106,11 @@ fn drawing(views: &[View<'_>], scale: &Scale) -> Markup {
                     @let y = hundredths(HEIGHT - scale.height(tick * scale.unit));
                     line x1="0" x2=(width) y1=(y) y2=(y) { }
                 }
-                @for (place, view) in views.iter().enumerate() { (bar(place, view, scale)) }
+                @for (place, row) in rows.iter().enumerate() { (bar(place, row, scale)) }
             }
             div.axis aria-hidden="true" {
-                @for place in labels(views.len()) {
-                    span style={ "left:" (hundredths((place as f64 - 0.5) / views.len() as f64 * 100.0)) "%" } { (views[place - 1].frame) }
+                @for place in labels(rows.len()) {
+                    span style={ "left:" (hundredths((place as f64 - 0.5) / rows.len() as f64 * 100.0)) "%" } { (rows[place - 1].frame) }
                 }
             }
             figcaption { "Frames, first to last. A bar leads to its frame." }
@@ -118,12 +118,12 @@ fn drawing(views: &[View<'_>], scale: &Scale) -> Markup {
     }
 }
 
-fn bar(place: usize, view: &View<'_>, scale: &Scale) -> Markup {
+fn bar(place: usize, row: &FrameRow<'_>, scale: &Scale) -> Markup {
     let x = place as f64 * PITCH;
     html! {
-        a href={ "#frame-" (view.frame) } data-frame=(view.frame) tabindex="-1" {
-            title { (tip(view)) }
-            @if let Some(record) = view.record {
+        a href={ "#frame-" (row.frame) } data-frame=(row.frame) tabindex="-1" {
+            title { (tip(row)) }
+            @if let Some(record) = row.record {
                 @for (i, low, high) in stacked(&record.seconds, scale) {
                     rect class={ "p" (i + 1) } x=(x) y=(hundredths(HEIGHT - high)) width=(PITCH - GAP) height=(hundredths(high - low)) { }
                 }
@@ -148,10 +148,10 @@ fn stacked(seconds: &Seconds, scale: &Scale) -> Vec<(usize, f64, f64)> {
     parts
 }
 
-fn tip(view: &View<'_>) -> String {
-    let frame = view.frame;
-    match view.record {
-        None => format!("frame {frame}: {}", view.state.word()),
+fn tip(row: &FrameRow<'_>) -> String {
+    let frame = row.frame;
+    match row.record {
+        None => format!("frame {frame}: {}", row.state.word()),
         Some(record) => {
             let part = |(name, part): &Phase| format!("{name} {}", time(part(&record.seconds)));
             let parts: Vec<String> = PHASES.iter().map(part).collect();

@@ -1,47 +1,48 @@
 //! What stands above the frames: which shot, what became of it, and what is wrong.
 
 use super::super::output::OUTPUTS;
-use super::view::{Contents, Entry, View, beside, span};
+use super::frame_row::{Contents, Entry, FrameRow, beside, span};
 use crate::plot::STYLE;
 use crate::plot::quantity::{bytes, time};
-use crate::queue::{Record, Reel};
-use crate::sequence::gaps::{Run, count};
+use crate::sequence::findings::{Run, count};
+use crate::store::{Record, ShotFolder};
 use indexmap::IndexMap;
 use maud::{Markup, PreEscaped, html};
 
-fn title(reel: &Reel) -> &str {
-    reel.shot()
+fn title(shot_folder: &ShotFolder) -> &str {
+    shot_folder
+        .shot()
         .shot
         .title
         .as_deref()
-        .unwrap_or(&reel.names.stem)
+        .unwrap_or(&shot_folder.names.stem)
 }
 
 /// The `head` of the page. It allows pictures from its folder and nothing from anywhere else.
-pub(super) fn head(reel: &Reel) -> Markup {
+pub(super) fn head(shot_folder: &ShotFolder) -> Markup {
     html! {
         head {
             meta charset="utf-8";
             meta name="viewport" content="width=device-width, initial-scale=1";
             meta http-equiv="Content-Security-Policy" content="default-src 'none'; img-src 'self' data: file:; style-src 'unsafe-inline'; script-src 'unsafe-inline'";
             link rel="icon" href="data:,";
-            title { (title(reel)) ": frames" }
+            title { (title(shot_folder)) ": frames" }
             style { (PreEscaped(STYLE)) (PreEscaped(include_str!("style.css"))) }
         }
     }
 }
 
 /// Warnings first, then the counts, and links to what was assembled.
-pub(super) fn opening(reel: &Reel, contents: &Contents<'_>) -> Markup {
-    let views = &contents.views;
+pub(super) fn opening(shot_folder: &ShotFolder, contents: &Contents<'_>) -> Markup {
+    let rows = &contents.rows;
     html! {
         header {
             p.kicker { "Frames" }
-            h1 { (title(reel)) }
+            h1 { (title(shot_folder)) }
             (warnings(contents))
             p #counts { strong { (counts(contents)) } }
-            p.facts { (shot_file(reel)) (when(views)) (seconds(views)) (machines(views)) }
-            (assembled(reel))
+            p.facts { (shot_file(shot_folder)) (when(rows)) (seconds(rows)) (machines(rows)) }
+            (assembled(shot_folder))
         }
     }
 }
@@ -52,18 +53,18 @@ fn warnings(contents: &Contents<'_>) -> Markup {
     for entry in contents.entries() {
         let (words, run) = match entry {
             Entry::Gap(run) => ("missing".to_owned(), run.clone()),
-            Entry::Frame(view) if view.state.is_amiss() => {
-                let because = view.state.because().map(|b| format!(": {b}"));
-                let words = format!("{}{}", view.state.word(), because.unwrap_or_default());
-                (words, view.frame..=view.frame)
+            Entry::Frame(row) if row.state.is_amiss() => {
+                let reason = row.state.reason().map(|b| format!(": {b}"));
+                let words = format!("{}{}", row.state.word(), reason.unwrap_or_default());
+                (words, row.frame..=row.frame)
             }
             Entry::Frame(_) => continue,
         };
         add(frames.entry(words).or_default(), run);
     }
-    for view in &contents.views {
-        for warning in view.record.iter().flat_map(|record| &record.warnings) {
-            let run = view.frame..=view.frame;
+    for row in &contents.rows {
+        for warning in row.record.iter().flat_map(|record| &record.warnings) {
+            let run = row.frame..=row.frame;
             add(frames.entry(warning.clone()).or_default(), run);
         }
     }
@@ -95,7 +96,7 @@ fn counts(contents: &Contents<'_>) -> String {
     for word in [
         "rendered", "kept", "finished", "stale", "missing", "broken", "failed",
     ] {
-        let shown = contents.views.iter().filter(|v| v.state.word() == word);
+        let shown = contents.rows.iter().filter(|v| v.state.word() == word);
         let missing = if word == "missing" { gaps } else { 0 };
         let count = shown.count() + missing as usize;
         // That nothing is missing is what one wants to read.
@@ -114,24 +115,24 @@ fn counts(contents: &Contents<'_>) -> String {
     format!("{} frame{plural}: {}.", contents.frames, words.join(", "))
 }
 
-fn shot_file(reel: &Reel) -> String {
-    let picture = reel.keys.picture();
+fn shot_file(shot_folder: &ShotFolder) -> String {
+    let picture = shot_folder.keys.resolution();
     let [width, height] = picture.size;
-    let fps = reel.shot().shot.fps;
+    let fps = shot_folder.shot().shot.fps;
     let plural = if picture.samples == 1 { "" } else { "s" };
     format!(
         "{}, {width} × {height} pixels, {} sample{plural} a pixel, {fps} frames a second. ",
-        reel.shot().path.display(),
+        shot_folder.shot().path.display(),
         picture.samples
     )
 }
 
-fn records<'a>(views: &'a [View<'a>]) -> impl Iterator<Item = &'a Record> {
-    views.iter().filter_map(|view| view.record)
+fn records<'a>(rows: &'a [FrameRow<'a>]) -> impl Iterator<Item = &'a Record> {
+    rows.iter().filter_map(|row| row.record)
 }
 
-fn when(views: &[View<'_>]) -> String {
-    let finished = || records(views).map(|record| record.finished.as_str());
+fn when(rows: &[FrameRow<'_>]) -> String {
+    let finished = || records(rows).map(|record| record.finished.as_str());
     match (finished().min(), finished().max()) {
         (Some(first), Some(last)) if first != last => {
             format!("The first frame was finished at {first}, the last at {last}. ")
@@ -141,14 +142,14 @@ fn when(views: &[View<'_>]) -> String {
     }
 }
 
-fn seconds(views: &[View<'_>]) -> String {
-    let all: f64 = records(views).map(|record| record.seconds.total()).sum();
+fn seconds(rows: &[FrameRow<'_>]) -> String {
+    let all: f64 = records(rows).map(|record| record.seconds.total()).sum();
     format!("Rendering all frames took {}. ", time(all))
 }
 
-fn machines(views: &[View<'_>]) -> String {
+fn machines(rows: &[FrameRow<'_>]) -> String {
     let mut machines: Vec<String> = Vec::new();
-    for record in records(views) {
+    for record in records(rows) {
         let plural = if record.threads == 1 { "" } else { "s" };
         let Record {
             host,
@@ -167,10 +168,10 @@ fn machines(views: &[View<'_>]) -> String {
     }
 }
 
-fn assembled(reel: &Reel) -> Markup {
+fn assembled(shot_folder: &ShotFolder) -> Markup {
     let files = OUTPUTS.iter().filter_map(|output| {
-        let name = reel.names.assembled(output.suffix());
-        let length = std::fs::metadata(reel.folder.join(&name)).ok()?.len();
+        let name = shot_folder.names.assembled(output.suffix());
+        let length = std::fs::metadata(shot_folder.path.join(&name)).ok()?.len();
         Some((output.title(), name, length))
     });
     let files: Vec<_> = files.collect();

@@ -1,11 +1,11 @@
 //! All frames as a table: what is known of each, and what it is made of.
 
 use super::chart::PHASES;
-use super::view::{Contents, Entry, View, beside, span};
-use crate::plan::Facts;
+use super::frame_row::{Contents, Entry, FrameRow, beside, span};
+use crate::frame::Caption;
 use crate::plot::quantity::{NOTHING, bytes, number, time};
-use crate::queue::Record;
 use crate::relativity::Celerity;
+use crate::store::Record;
 use maud::{Markup, html};
 
 /// A column, which is left out where no frame has anything in it.
@@ -13,89 +13,89 @@ struct Column {
     title: &'static str,
     /// Of numbers, which stand at the right.
     class: Option<&'static str>,
-    cell: fn(&View<'_>) -> Option<String>,
+    cell: fn(&FrameRow<'_>) -> Option<String>,
 }
 
-const fn words(title: &'static str, cell: fn(&View<'_>) -> Option<String>) -> Column {
+const fn words(title: &'static str, cell: fn(&FrameRow<'_>) -> Option<String>) -> Column {
     let class = None;
     Column { title, class, cell }
 }
 
-const fn numbers(title: &'static str, cell: fn(&View<'_>) -> Option<String>) -> Column {
+const fn numbers(title: &'static str, cell: fn(&FrameRow<'_>) -> Option<String>) -> Column {
     let class = Some("n");
     Column { title, class, cell }
 }
 
 const COLUMNS: [Column; 17] = [
-    words("State", |view| {
-        let because = view.state.because().map(|b| format!(": {b}"));
+    words("State", |row| {
+        let reason = row.state.reason().map(|b| format!(": {b}"));
         Some(format!(
             "{}{}",
-            view.state.word(),
-            because.unwrap_or_default()
+            row.state.word(),
+            reason.unwrap_or_default()
         ))
     }),
-    numbers("Time, s", |view| fact(view, |f| f.time_s.map(digits))),
-    numbers("β", |view| fact(view, |f| Some(beta(f.fastest)))),
-    numbers("γ", |view| {
-        fact(view, |f| Some(digits(f.fastest.lorentz_factor())))
+    numbers("Time, s", |row| fact(row, |f| f.time_s.map(digits))),
+    numbers("β", |row| fact(row, |f| Some(beta(f.fastest)))),
+    numbers("γ", |row| {
+        fact(row, |f| Some(digits(f.fastest.lorentz_factor())))
     }),
-    numbers("Hottest, K", |view| {
-        fact(view, |f| f.temperature_k.map(digits))
+    numbers("Hottest, K", |row| {
+        fact(row, |f| f.temperature_k.map(digits))
     }),
-    numbers("Exposure, stops", |view| {
-        record(view, |r| Some(digits(r.exposure)))
+    numbers("Exposure, stops", |row| {
+        record(row, |r| Some(digits(r.exposure)))
     }),
-    numbers("Seconds", |view| {
-        record(view, |r| Some(time(r.seconds.total())))
+    numbers("Seconds", |row| {
+        record(row, |r| Some(time(r.seconds.total())))
     }),
-    numbers("prepare", |view| phase(view, 0)),
-    numbers("trace", |view| phase(view, 1)),
-    numbers("shade", |view| phase(view, 2)),
-    numbers("encode", |view| phase(view, 3)),
-    numbers("write", |view| phase(view, 4)),
-    numbers("Samples", |view| {
-        record(view, |r| Some(r.samples.to_string()))
+    numbers("prepare", |row| phase(row, 0)),
+    numbers("trace", |row| phase(row, 1)),
+    numbers("shade", |row| phase(row, 2)),
+    numbers("encode", |row| phase(row, 3)),
+    numbers("write", |row| phase(row, 4)),
+    numbers("Samples", |row| {
+        record(row, |r| Some(r.samples.to_string()))
     }),
-    words("Effects", |view| {
-        record(view, |r| {
+    words("Effects", |row| {
+        record(row, |r| {
             Some(r.effects.join(", ")).filter(|e| !e.is_empty())
         })
     }),
-    words("Trace", |view| {
-        record(view, |r| match r.shared {
+    words("Trace", |row| {
+        record(row, |r| match r.shared {
             0 | 1 => None,
             shared => Some(format!("shared by {shared} frames")),
         })
     }),
-    numbers("Light left out, %", |view| {
-        record(view, |r| (r.cut > 0.0).then(|| digits(100.0 * r.cut)))
+    numbers("Light left out, %", |row| {
+        record(row, |r| (r.cut > 0.0).then(|| digits(100.0 * r.cut)))
     }),
-    words("Warnings", |view| {
-        record(view, |r| {
+    words("Warnings", |row| {
+        record(row, |r| {
             Some(r.warnings.join("; ")).filter(|w| !w.is_empty())
         })
     }),
 ];
 
-fn fact(view: &View<'_>, part: impl Fn(&Facts) -> Option<String>) -> Option<String> {
-    part(view.facts.as_ref()?)
+fn fact(row: &FrameRow<'_>, part: impl Fn(&Caption) -> Option<String>) -> Option<String> {
+    part(row.caption.as_ref()?)
 }
 
-fn record(view: &View<'_>, part: impl Fn(&Record) -> Option<String>) -> Option<String> {
-    part(view.record?)
+fn record(row: &FrameRow<'_>, part: impl Fn(&Record) -> Option<String>) -> Option<String> {
+    part(row.record?)
 }
 
-fn phase(view: &View<'_>, place: usize) -> Option<String> {
-    Some(time((PHASES[place].1)(&view.record?.seconds)))
+fn phase(row: &FrameRow<'_>, place: usize) -> Option<String> {
+    Some(time((PHASES[place].1)(&row.record?.seconds)))
 }
 
 /// The section.
 pub(super) fn section(contents: &Contents<'_>) -> Markup {
-    let views = &contents.views;
-    let has = |column: &&Column| views.iter().any(|view| (column.cell)(view).is_some());
+    let rows = &contents.rows;
+    let has = |column: &&Column| rows.iter().any(|row| (column.cell)(row).is_some());
     let columns: Vec<&Column> = COLUMNS.iter().filter(has).collect();
-    let common = common_parts(views);
+    let common = common_parts(rows);
     html! {
         section aria-labelledby="each" {
             h2 #each { "Frame by frame" }
@@ -106,7 +106,7 @@ pub(super) fn section(contents: &Contents<'_>) -> Markup {
                     th scope="col" { "Made of" }
                 } }
                 tbody { @for entry in contents.entries() { @match entry {
-                    Entry::Frame(view) => (row(view, &columns, &common)),
+                    Entry::Frame(row) => (table_row(row, &columns, &common)),
                     Entry::Gap(run) => tr.gap { td colspan=(columns.len() + 2) {
                         "frames " (span(run)) ": missing"
                     } },
@@ -120,17 +120,17 @@ pub(super) fn section(contents: &Contents<'_>) -> Markup {
     }
 }
 
-fn row(view: &View<'_>, columns: &[&Column], common: &[(&str, &str)]) -> Markup {
+fn table_row(row: &FrameRow<'_>, columns: &[&Column], common: &[(&str, &str)]) -> Markup {
     html! {
-        tr id={ "frame-" (view.frame) } {
-            th scope="row" { @match &view.full {
-                Some(full) => a href=(full) { (view.frame) },
-                None => (view.frame),
+        tr id={ "frame-" (row.frame) } {
+            th scope="row" { @match &row.full {
+                Some(full) => a href=(full) { (row.frame) },
+                None => (row.frame),
             } }
             @for column in columns {
-                td class=[column.class] { ((column.cell)(view).as_deref().unwrap_or(NOTHING)) }
+                td class=[column.class] { ((column.cell)(row).as_deref().unwrap_or(NOTHING)) }
             }
-            td data-short=(NOTHING) { @match view.record {
+            td data-short=(NOTHING) { @match row.record {
                 Some(record) => (made_of(record, common)),
                 None => (NOTHING),
             } }
@@ -165,8 +165,8 @@ fn list<'a>(parts: impl Iterator<Item = (&'a str, &'a str)>) -> Markup {
 }
 
 /// What the frames with a record are all made of, so that it is said once.
-fn common_parts<'a>(views: &[View<'a>]) -> Vec<(&'a str, &'a str)> {
-    let mut records = views.iter().filter_map(|view| view.record);
+fn common_parts<'a>(rows: &[FrameRow<'a>]) -> Vec<(&'a str, &'a str)> {
+    let mut records = rows.iter().filter_map(|row| row.record);
     let Some(first) = records.next() else {
         return Vec::new();
     };

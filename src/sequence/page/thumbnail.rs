@@ -1,6 +1,6 @@
 //! A frame's small picture, as a text that stands in the page.
 
-use crate::sequence::Still;
+use crate::sequence::frame_image::FrameImage;
 use base64::prelude::{BASE64_STANDARD, Engine};
 use image::codecs::jpeg::JpegEncoder;
 use image::imageops::thumbnail;
@@ -24,9 +24,9 @@ pub(super) struct Thumbnail {
 }
 
 /// The small picture of one of so many frames: as large as the page can bear.
-pub(super) fn small(still: Still, frames: u32) -> Option<Thumbnail> {
-    let size = [still.width, still.height];
-    let image = RgbImage::from_raw(still.width, still.height, still.rgb8)?;
+pub(super) fn small(image: FrameImage, frames: u32) -> Option<Thumbnail> {
+    let size = [image.width, image.height];
+    let image = RgbImage::from_raw(image.width, image.height, image.rgb8)?;
     // Base64 has 4 characters for 3 bytes.
     let most = BUDGET / 4 * 3 / frames.max(1) as usize;
     let jpeg = fitting(&image, most)?;
@@ -65,14 +65,14 @@ mod tests {
     use super::*;
 
     /// Noise, which JPEG can shrink least.
-    fn noise(width: u32, height: u32) -> Still {
+    fn noise(width: u32, height: u32) -> FrameImage {
         let mut state = 1_u32;
         let mut byte = || {
             state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
             (state >> 24) as u8
         };
         let rgb8 = (0..width * height * 3).map(|_| byte()).collect();
-        Still {
+        FrameImage {
             width,
             height,
             rgb8,

@@ -1,27 +1,27 @@
-//! Light by lines: each spectrum at equal distances from 50 to 5000 nm, resampled at every shift,
-//! as it was done before splines (Hsiung et al. 1990 §3.2, §6), neither slower nor faster.
-//!
-//! A shift that is exactly 1 resamples nothing.
+//! `accuracy.spectra = "lines"`: spectra as samples at equal distances from 50 to 5000 nm, resampled
+//! at every shift. This is the method that splines replaced in 1990 (Hsiung et al. 1990 §3.2, §6),
+//! for comparison of accuracy and time, so it takes no short cut but one: a shift of exactly 1
+//! resamples nothing.
 
-use super::super::curve::Curve;
-use super::super::radiance::Radiance;
-use super::super::received::finite;
-use super::super::settings::Settings;
 use super::coefficients::{CoefficientBasis, CoefficientShader, Coefficients, Part, Shading};
 use crate::scene::sky::{SkyImage, Stars};
 use crate::scene::{Background, Scene};
+use crate::shade::curve::Curve;
+use crate::shade::radiance::Radiance;
+use crate::shade::received::finite;
+use crate::shade::settings::Settings;
 use crate::shot::SensorColor;
 use crate::spectrum::{ColoredLight, LineAxis, Lines, LogAxis, illuminant, planck};
 use crate::trace::{Root, ShadeTrees};
 use glam::DVec3;
 use std::sync::Arc;
 
-/// Turns shade trees to light by lines.
+/// Shades trees by lines.
 pub(crate) struct LineShader {
     shader: CoefficientShader<LineBasis>,
-    /// What each line that is seen adds to the sensor's channels.
+    /// For each line that the sensor sees, its weight in each channel.
     weights: Vec<(usize, [f64; 3])>,
-    /// Wavelengths of curves that are asked for.
+    /// The wavelengths of [`LineShader::radiance`].
     curves: LogAxis,
 }
 
@@ -62,8 +62,7 @@ impl LineShader {
             .weigh(&self.weights)
     }
 
-    /// Spectral radiance that the camera receives along a ray: what its lines hold, linear between
-    /// them, 0 beyond.
+    /// Spectral radiance that the camera receives along a ray: linear between lines, 0 beyond them.
     pub(crate) fn radiance(&self, trees: &ShadeTrees, root: Root) -> Radiance {
         let wavelengths = self.curves.wavelengths_nm();
         let axis = self.shader.basis.axis;

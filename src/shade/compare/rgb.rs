@@ -1,37 +1,37 @@
-//! Light as three numbers, which no shift can reach: the zero of the scale of accuracy.
+//! `accuracy.spectra = "rgb"`: no spectra, so no Doppler shift. The baseline of accuracy studies.
 //!
-//! A light's numbers are linear Rec. 709 of its XYZ, signed, for many lights lie outside of that
-//! gamut; a reflectance's are those of its product with D65 over those of D65. They multiply one by
-//! one, so that greys are exact under any light and everything is under D65; all else is off by as
-//! much as light and reflectance are coloured. Under `sensor.color = "bands"` the three are the
-//! bands, and white is flat. No wavelength is looked at while shading.
+//! Light is linear Rec. 709 of its XYZ, signed, because many spectra lie outside of that gamut. A
+//! reflectance is that of its product with D65 over that of D65. They multiply one by one, so greys
+//! are exact under any light, and all reflectances under D65; otherwise the error grows with the
+//! saturation of both. Under `sensor.color = "bands"` the three numbers are the bands, and the
+//! spectrum of white is constant.
 
-use super::super::curve::Curve;
-use super::super::received::finite;
-use super::super::settings::Settings;
-use super::super::thermal::BlackbodyTable;
 use super::coefficients::{CoefficientBasis, CoefficientShader, Coefficients, Part, Shading};
 use crate::color::cie::RANGE_NM;
 use crate::color::spaces::{Matrix, RGB_FROM_XYZ, XYZ_FROM_RGB, apply};
 use crate::scene::sky::{SkyImage, Stars};
 use crate::scene::{Background, Scene};
+use crate::shade::curve::Curve;
+use crate::shade::received::finite;
+use crate::shade::settings::Settings;
+use crate::shade::thermal::BlackbodyTable;
 use crate::shot::SensorColor;
 use crate::spectrum::{ColoredLight, LogAxis, Sensor, Spectrum, illuminant};
 use crate::trace::{Root, ShadeTrees};
 use glam::DVec3;
 use std::sync::Arc;
 
-/// Wavelengths of the sums that make the numbers, some 0.1 nm apart in the visible: light of
-/// σ = 0.2 nm is added up within 1e-7, of 1 nm within 1e-9 (`tests/held_spectra.rs`).
+/// Wavelengths of the sums that the numbers are made by, 0.1 nm apart in the visible: the sum of a
+/// gaussian of σ = 0.2 nm is exact within 1e-7, of 1 nm within 1e-9 (`tests/held_spectra.rs`).
 const WAVELENGTHS: usize = 4096;
 
-/// Turns shade trees to light by three numbers.
+/// Shades trees by three numbers.
 pub(crate) struct RgbShader {
     shader: CoefficientShader<RgbBasis>,
 }
 
 impl RgbShader {
-    /// Prepares a scene's numbers; `sensor` is that of its curves.
+    /// Prepares a scene's numbers. `sensor` makes the numbers of stars.
     pub(crate) fn new(scene: &Scene, settings: &Settings<'_>, sensor: &Sensor) -> Self {
         let basis = RgbBasis::new(&scene.background, settings, sensor);
         Self {
@@ -81,13 +81,13 @@ impl Coefficients for [f64; 3] {
     }
 }
 
-/// Held to the numbers: infinitely much less infinitely much would be none.
+/// Finite: the difference of two infinities would not be a number.
 #[inline(always)]
 fn within(value: f64) -> f64 {
     value.clamp(-f64::MAX, f64::MAX)
 }
 
-/// What the three numbers are amounts of.
+/// What the three numbers are amounts of: primaries, or bands.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Primaries {
     /// Those of Rec. 709.
@@ -97,7 +97,7 @@ enum Primaries {
 }
 
 impl Primaries {
-    /// The numbers of light by the sensor's channels.
+    /// From the sensor's channels to numbers.
     fn numbers(self, channels: [f64; 3]) -> [f64; 3] {
         match self {
             Self::Rec709 => apply(&RGB_FROM_XYZ, channels),
@@ -105,6 +105,7 @@ impl Primaries {
         }
     }
 
+    /// From numbers to the sensor's channels.
     #[inline(always)]
     fn channels(self, numbers: [f64; 3]) -> [f64; 3] {
         match self {
@@ -117,8 +118,8 @@ impl Primaries {
 /// Spectra as three numbers.
 struct RgbBasis {
     primaries: Primaries,
-    fine: Fine,
-    /// The light under which a reflectance is measured, and its numbers.
+    fine: DenseSensor,
+    /// The light that reflectances are relative to, and its numbers.
     white: (Spectrum, [f64; 3]),
     sky: RgbSky,
 }
@@ -129,7 +130,7 @@ impl RgbBasis {
             SensorColor::Cie1931 => (Primaries::Rec709, d65()),
             SensorColor::Bands => (Primaries::Bands, Spectrum::Constant(1.0)),
         };
-        let fine = Fine::new(settings);
+        let fine = DenseSensor::new(settings);
         let numbers = primaries.numbers(fine.channels(|nm| white.at(nm)));
         Self {
             sky: RgbSky::new(sky, primaries, &fine, sensor),
@@ -157,7 +158,7 @@ impl CoefficientBasis for RgbBasis {
         }
         let (light, white) = &self.white;
         let colored = self.light(|nm| light.at(nm) * curve.at(nm));
-        // A window outside of the visible has no white, and no light either.
+        // In a window outside of the visible white is 0, and so is all light.
         [0, 1, 2].map(|i| {
             if white[i] == 0.0 {
                 0.0
@@ -183,14 +184,14 @@ impl CoefficientBasis for RgbBasis {
     }
 }
 
-/// The sensor at wavelengths so close that its sums stand for integrals.
-enum Fine {
+/// The sensor at so many wavelengths that its sums stand for integrals.
+enum DenseSensor {
     Sees(Sensor, Vec<f64>),
-    /// The eye sees nothing of the window.
+    /// The window lies outside of the visible.
     Blind,
 }
 
-impl Fine {
+impl DenseSensor {
     fn new(settings: &Settings<'_>) -> Self {
         let [from, to] = settings.sensor.window;
         let sensor = match settings.sensor.color {
@@ -222,13 +223,13 @@ impl Fine {
 /// The sky in its rest frame.
 struct RgbSky {
     constant: Option<[f64; 3]>,
-    /// An image, and the numbers of its colours.
+    /// An image, and the matrix from its colours to numbers.
     image: Option<(Arc<SkyImage>, Matrix)>,
     stars: Option<(Arc<Stars>, BlackbodyTable)>,
 }
 
 impl RgbSky {
-    fn new(sky: &Background, primaries: Primaries, fine: &Fine, sensor: &Sensor) -> Self {
+    fn new(sky: &Background, primaries: Primaries, fine: &DenseSensor, sensor: &Sensor) -> Self {
         let lit = sky.scale > 0.0;
         let scaled =
             |channels: [f64; 3]| primaries.numbers(channels.map(|v| within(v * sky.scale)));
@@ -266,9 +267,9 @@ impl RgbSky {
     }
 }
 
-/// The sensor's channels of an image's red, green and blue: of the curves that stand for them, so
-/// scaled that together they are D65, as a white of an image is.
-fn of_colors(fine: &Fine) -> [[f64; 3]; 3] {
+/// The sensor's channels of an image's red, green and blue, by the spectra that stand for them, scaled
+/// so that their sum is that of D65, an image's white.
+fn of_colors(fine: &DenseSensor) -> [[f64; 3]; 3] {
     let d65 = d65();
     let white = fine.channels(|nm| d65.at(nm));
     let colors = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]].map(|rgb| {

@@ -1,18 +1,19 @@
-//! What the grid states its error to be, over all that a scene's spectra can become.
+//! The error bound of a grid: over all materials, lamps and shifts of a scene.
 
-use super::super::curve::Curve;
-use super::super::curves::CurveShader;
-use super::super::integrand::Reading;
-use super::super::table::XyzTable;
+use crate::shade::curve::Curve;
+use crate::shade::curves::CurveShader;
+use crate::shade::integrand::Reading;
+use crate::shade::table::XyzTable;
 use crate::spectrum::{GridBound, Quadrature, Roughness, Spectrum, planck};
 
-/// Error of black bodies that are tabulated over ln T, relative: 2e-5 where all that the window
-/// holds of them is 1e-80 of their light, less where it is more.
+/// Relative error of black bodies by a table over ln T: 2e-5 where the window holds 1e-80 of their
+/// light, less where it holds more.
 const BLACK_BODIES: f64 = 2e-5;
 
 impl CurveShader {
-    /// The largest error of light that comes without mirrors, of all pairs of material and lamp,
-    /// glowing surfaces and the sky's spectrum; see [`Shader::bound`](crate::shade::Shader::bound).
+    /// The largest error of light that the camera sees directly: of each material under each lamp,
+    /// of emission and thermal light, and of the sky's spectrum. See
+    /// [`Shader::bound`](crate::shade::Shader::bound).
     pub(crate) fn bound(&self, quadrature: &Quadrature) -> f64 {
         let Some(seen_nm) = quadrature.seen_nm() else {
             return 0.0;
@@ -63,7 +64,7 @@ impl CurveShader {
             if let Some(thermal) = &material.thermal {
                 let (kelvin, emissivity) = thermal.parts();
                 let light = |nm| planck::radiance(nm, kelvin);
-                // Like a constant, Planck's curve bends nowhere.
+                // Planck's curve has no corners, as a constant has none.
                 let body = Roughness::of(light, &Spectrum::Constant(1.0), near, grid.step());
                 let factors = [body, rough(emissivity, near)];
                 worst = worst.max(grid.relative(&factors) + BLACK_BODIES);

@@ -5,16 +5,16 @@
 //! share; where these are too many for a ray, one is read by its means over the axis' spacing
 //! ([`unresolved`](super::unresolved())).
 
-use super::super::curve::write_shape;
-use super::super::curves::CurveShader;
-use super::super::integrand::{Reading, Source};
-use super::super::narrow::Narrow;
-use super::super::received::finite;
-use super::super::table::add;
-use super::super::walk::{Origin, Visit};
+use crate::shade::curve::write_shape;
+use crate::shade::curves::CurveShader;
+use crate::shade::integrand::{Reading, Source};
+use crate::shade::narrow::Narrow;
+use crate::shade::received::finite;
+use crate::shade::table::add;
+use crate::shade::walk::{Origin, Visit};
 
-/// Widest range, in spacings of the axis, over which narrow curves that meet are integrated for a
-/// ray; of wider ones, tables with narrow bands all over, one is read by its means.
+/// Widest range, in spacings of the axis, over which two narrow curves are integrated for a ray. Of
+/// wider ones, tables with narrow bands all over, one is read by its means.
 const WIDEST: f64 = 16.0;
 
 impl CurveShader {
@@ -24,7 +24,7 @@ impl CurveShader {
         self.product_channels(&product)
     }
 
-    /// The same where they share too much to be integrated together for a ray; None where they are.
+    /// The same where one of them is read by its means; None where they are integrated together.
     pub(super) fn apart(&self, one: &Reading<'_>, other: &Reading<'_>) -> Option<[f64; 3]> {
         let product = product(1.0, vec![*one, *other], None);
         let shared = self.shared(&[one, other], &product);
@@ -118,8 +118,8 @@ impl CurveShader {
         channels.map(|v| finite(v * product.factor))
     }
 
-    /// A product as its authors wrote it, over what its narrow curves share; None if that is too
-    /// much.
+    /// The integral of a product over the wavelengths that its narrow curves share; None if these are
+    /// too many, see [`WIDEST`].
     fn shared(&self, narrow: &[&Reading<'_>], product: &Product<'_>) -> Option<[f64; 3]> {
         let quadrature = self.quadrature.as_ref()?;
         let mut range = quadrature.seen_nm()?;
@@ -152,7 +152,7 @@ impl CurveShader {
 struct Product<'a> {
     factor: f64,
     readings: Vec<Reading<'a>>,
-    /// What else there is to it, smooth.
+    /// A source that gives the smooth rest of it, see [`Source::rest_at`].
     rest: Option<&'a Source<'a>>,
 }
 

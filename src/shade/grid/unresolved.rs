@@ -1,33 +1,33 @@
-//! What the sensor's wavelengths cannot tell apart: materials and lamps that both have narrow bands
-//! all over the spectrum, and move against each other.
+//! A warning about pairs of material and lamp that both have narrow bands all over the spectrum, and
+//! move against each other.
 //!
-//! Where one shift serves both their product is integrated, and so it is where one of them is a few
-//! lines; here one is read by its means over the axis' spacing, which is right as far as its bands
-//! have nothing to do with those of the other.
+//! The product of two narrow curves is integrated where one shift serves both, and where one of them
+//! is a few lines. Otherwise one is read by its means over the axis' spacing, which is right only as
+//! far as its bands are not correlated with those of the other.
 
-use super::super::curves::CurveShader;
-use super::super::integrand::Reading;
-use super::super::material::ReflectorTables;
-use super::super::settings::Settings;
 use crate::scene::{Light, Material, Scene};
+use crate::shade::curves::CurveShader;
+use crate::shade::integrand::Reading;
+use crate::shade::material::ReflectorTables;
+use crate::shade::settings::Settings;
 use crate::shot::Spectra;
 use crate::spectrum::{Fine, LogAxis, Spectrum};
 use std::fmt;
 
-/// From which share of their light on it is worth a word.
-const TOLD: f64 = 0.01;
+/// Least error that is worth a warning, as a share of the light.
+const WORTH_A_WARNING: f64 = 0.01;
 
-/// A pair whose light may be off where they move against each other.
+/// A material and a lamp whose reflected light may be wrong where they move against each other.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Unresolved {
     /// The material.
     pub material: String,
     /// The lamp.
     pub light: String,
-    /// By how much, over the greatest channel: measured where both have the same shift.
+    /// The error over the greatest channel, measured where both have the same shift.
     pub error: f64,
-    /// The sensor's wavelengths, and how many would be as close as the bands; more than a shot may
-    /// have where none would.
+    /// How many wavelengths the sensor has, and how many would resolve the bands; that may be more
+    /// than a shot may have.
     pub wavelengths: [f64; 2],
 }
 
@@ -52,13 +52,14 @@ impl fmt::Display for Unresolved {
     }
 }
 
-/// Most that a shot may have.
+/// Most wavelengths that a shot may have.
 const MOST_WAVELENGTHS: f64 = 4096.0;
 
-/// All such pairs of a scene, each lamp's spectrum once; none where curves do not shift or are not
-/// held over wavelengths, and none with a lamp that rests with all bodies.
+/// All such pairs of a scene, each lamp's spectrum once. Empty if spectra do not shift or
+/// `accuracy.spectra` is neither "grid" nor "spline". A lamp that rests with all bodies makes no
+/// pair.
 ///
-/// Costs next to nothing where lamps or surfaces have nothing narrow.
+/// Takes microseconds where lamps or surfaces have no narrow spectra.
 pub fn unresolved(scene: &Scene, settings: &Settings<'_>) -> Vec<Unresolved> {
     let axis = settings.axis();
     let grid = matches!(settings.accuracy.spectra, Spectra::Grid | Spectra::Spline);
@@ -81,7 +82,7 @@ pub fn unresolved(scene: &Scene, settings: &Settings<'_>) -> Vec<Unresolved> {
             let lobes = curves.reflectors().iter();
             let errors = lobes.filter_map(|lobe| shader.lost(lobe, emitter));
             let error = errors.fold(0.0, f64::max);
-            if error > TOLD {
+            if error > WORTH_A_WARNING {
                 pairs.push(Unresolved {
                     material: material.name.clone(),
                     light: light.name.clone(),
@@ -97,19 +98,19 @@ pub fn unresolved(scene: &Scene, settings: &Settings<'_>) -> Vec<Unresolved> {
     pairs
 }
 
-/// The spectra of what a material reflects of lamps.
+/// The spectra of the lobes that reflect lamps.
 fn reflectances(material: &Material) -> impl Iterator<Item = &Spectrum> {
     let lobes = material.bsdf.non_specular().iter();
     lobes.map(|lobe| &*lobe.reflectance.spectrum)
 }
 
-/// Whether a lamp and some body are on worldlines of their own.
+/// Whether some body is on another worldline than a lamp.
 fn moves(scene: &Scene, light: &Light) -> bool {
     let mut bodies = scene.geometry.instances.iter();
     bodies.any(|body| body.worldline as usize != light.worldline)
 }
 
-/// Wavelengths that are half as far apart as the closest points of spectra.
+/// How many wavelengths would be half as far apart as the closest points of spectra.
 fn enough<'a>(axis: LogAxis, spectra: impl Iterator<Item = &'a Spectrum>) -> f64 {
     let width = axis.spacing() * axis.count() as f64;
     let finest = spectra.filter_map(Fine::finest).min_by(f64::total_cmp);
@@ -117,8 +118,8 @@ fn enough<'a>(axis: LogAxis, spectra: impl Iterator<Item = &'a Spectrum>) -> f64
 }
 
 impl CurveShader {
-    /// By how much the light of a lamp on a term is off where the two do not share their shift; None
-    /// where it is integrated.
+    /// The error of a lamp's light on a lobe where the two do not share their shift, over the greatest
+    /// channel; None where their product is integrated.
     fn lost(&self, lobe: &ReflectorTables, emitter: usize) -> Option<f64> {
         let light = &self.emitters[emitter].curve;
         let readings = [&lobe.reflectance, light].map(|curve| Reading { curve, shift: 1.0 });

@@ -23,6 +23,16 @@ pub const MAX_BYTES: u64 = 4 << 20;
 ///
 /// # Errors
 /// All mistakes in the file, or the one reason why it cannot be read.
+///
+/// # Example
+/// ```
+/// use restframe::shot;
+/// use std::path::Path;
+///
+/// let shot = shot::load(Path::new("shots/plate-08.toml"))?;
+/// assert_eq!(shot.image.size, [1280, 720]);
+/// # Ok::<(), shot::Mistakes>(())
+/// ```
 pub fn load(path: &Path) -> Result<Shot, Mistakes> {
     if let Some(stem @ ("." | "..")) = path.file_stem().and_then(OsStr::to_str) {
         let message =
@@ -81,6 +91,19 @@ fn unreadable(path: &Path, error: &io::Error) -> Mistakes {
 ///
 /// # Errors
 /// All mistakes in the text.
+///
+/// # Example
+/// ```
+/// use restframe::shot;
+/// use std::path::Path;
+///
+/// let text = "[worldline.fast]\nvelocity = [1.5, 0, 0]\n\
+///     [[model]]\nfile = \"assets/sphere.obj\"\nwordline = \"fast\"\n[camera]\n";
+/// let mistakes = shot::parse(text, Path::new("quick.toml")).unwrap_err();
+/// let keys: Vec<&str> = mistakes.iter().map(|mistake| mistake.key.as_str()).collect();
+/// assert_eq!(keys, ["worldline.fast.velocity", "model[0].wordline"]);
+/// println!("{mistakes}"); // each with its line, and "did you mean \"worldline\"?"
+/// ```
 pub fn parse(source: &str, path: &Path) -> Result<Shot, Mistakes> {
     let (tree, errors) = DeTable::parse_recoverable(source);
     let places = Places::new(path, source, || spans(tree.get_ref()));

@@ -22,6 +22,7 @@ const UNSUPPORTED: &[(&str, When, &str)] = &[
     ("model[].motion", Always, "leave it out: models stand as their file's nodes do"),
     ("camera.model", Always, "place the camera with `position` and `look_at`"),
     ("camera.node", Always, "place the camera with `position` and `look_at`"),
+    ("accuracy.tracing", Word("f32"), "use \"f64\""),
     ("sensor.tone", Word("filmic"), "use \"clip\""),
 ];
 

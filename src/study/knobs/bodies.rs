@@ -1,13 +1,12 @@
-//! Knobs: precision of rays, and triangles of spheres.
+//! Knob: triangles of spheres.
 
 use super::Knob;
 use crate::scene::Scene;
-use crate::shot::Precision;
 use crate::study::Start;
-use crate::study::displacement::{displacement, displacement_of_spheres};
+use crate::study::displacement::displacement_of_spheres;
 use crate::study::spheres;
 use crate::study::timed_render::{Bodies, Variant};
-use crate::trace::Stage;
+use crate::trace::build_aggregate;
 use std::sync::Arc;
 
 /// Subdivisions of an icosahedron: 80 to 20480 triangles.
@@ -15,41 +14,6 @@ const LEVELS: [u32; 5] = [1, 2, 3, 4, 5];
 const FINEST_LEVEL: u32 = 7;
 /// Largest number of triangles of all spheres together, about 200 MB.
 const MOST_TRIANGLES: usize = 2_000_000;
-
-/// The knob `accuracy.tracing`.
-pub(super) fn tracing(start: &Start<'_>) -> Knob {
-    let mut knob = Knob::new(
-        "accuracy.tracing",
-        "traverse",
-        "precision of rays and triangles in rest frames",
-    );
-    knob.reference = "f64";
-    knob.displacement = Some(displacement);
-    let variant = |precision: Precision, name: &str| {
-        let mut shot = start.shot.clone();
-        shot.accuracy.tracing = precision;
-        let bodies = if precision == start.shot.accuracy.tracing {
-            Arc::clone(&start.bodies)
-        } else {
-            let scene = start.bodies.scene.clone();
-            let stage = Stage::with_precision(&scene.geometry, None, precision);
-            Arc::new(Bodies { scene, stage })
-        };
-        Variant {
-            family: "tracing".to_owned(),
-            current: precision == start.shot.accuracy.tracing,
-            shot,
-            bodies,
-            ..start.variant(name.to_owned(), Some(format!("tracing = \"{name}\"")))
-        }
-    };
-    knob.variants = vec![
-        variant(Precision::F32, "f32"),
-        variant(Precision::F64, "f64"),
-    ];
-    knob.references = vec![variant(Precision::F64, "f64")];
-    knob
-}
 
 /// The tessellation of the shot's spheres.
 pub(super) fn tessellation(start: &Start<'_>) -> Knob {
@@ -63,7 +27,7 @@ pub(super) fn tessellation(start: &Start<'_>) -> Knob {
     let bodies = |level: u32| {
         let scene = &start.bodies.scene;
         let geometry = Arc::new(spheres::tessellated(&scene.geometry, level)?);
-        let stage = Stage::with_precision(&geometry, None, start.shot.accuracy.tracing);
+        let stage = build_aggregate(&geometry, None);
         let scene = Scene {
             geometry,
             ..scene.clone()

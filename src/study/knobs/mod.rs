@@ -9,7 +9,7 @@ mod spectra;
 use super::Start;
 use super::displacement::Displacement;
 use super::timed_render::Variant;
-use crate::plan::Called;
+use crate::frame::ActiveEffects;
 use crate::render::View;
 
 pub(super) use spectra::{lines_seen, without_shift};
@@ -56,12 +56,11 @@ impl Knob {
 }
 
 /// All knobs, in the order of a report.
-pub(super) const KNOBS: [fn(&Start<'_>, &Called) -> Knob; 7] = [
+pub(super) const KNOBS: [fn(&Start<'_>, &ActiveEffects) -> Knob; 6] = [
     spectra::spectra,
     |start, _| pixels::samples(start),
     mirrors::bounces,
     mirrors::cutoff,
-    |start, _| bodies::tracing(start),
     |start, _| bodies::tessellation(start),
     |start, _| pixels::output(start),
 ];

@@ -1,0 +1,18 @@
+//! Progress: how far a run has come, as events for whoever listens.
+//!
+//! In: what a run does, frame by frame ([`Progress`]). Out: [`Event`]s to any number of [`Sink`]s: a
+//! bar or plain lines on standard error, JSON, Open Job Description, or the caller's own closure.
+
+mod bar;
+mod event;
+mod json;
+mod mode;
+mod open_jd;
+mod outcome;
+mod tally;
+mod text;
+
+pub use event::{Event, Sink, Summary};
+pub use mode::{Mode, Results};
+pub use outcome::FrameOutcome;
+pub use tally::Progress;

@@ -1,0 +1,205 @@
+//! A batch of frames, from scenes to films: what is traced of them is traced here.
+
+use super::batch::ClaimedFrame;
+use super::job::Job;
+use super::memory::{TooLarge, check_memory};
+use super::settings::Settings;
+use crate::accel::Aggregate;
+use crate::film::{Film, SILENT};
+use crate::frame::Frame;
+use crate::plot::Plot;
+use crate::probe;
+use crate::progress::Progress;
+use crate::render::{
+    Exposing, Member, Prepared, Stopped, Together, Watch, left_out_warning, render_together,
+};
+use crate::scene::Scene;
+use crate::shot::Mistakes;
+use crate::trace::build_aggregate;
+use rayon::prelude::*;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::Instant;
+
+/// A batch that has been rendered.
+pub(super) struct RenderedBatch {
+    /// Number of the first frame's job.
+    pub(super) first: usize,
+    /// One for each frame.
+    pub(super) scenes: Vec<Scene>,
+    pub(super) stage: Aggregate,
+    pub(super) together: Together,
+    /// What pictures show beside the films, one for each frame; None where the run was stopped
+    /// before.
+    pub(super) probed: Vec<Option<Probed>>,
+}
+
+/// What the picture of a frame shows beside its film, looked up in the same scene and trees.
+#[derive(Default)]
+pub(super) struct Probed {
+    /// Plots of its insets.
+    pub(super) insets: Vec<Option<Plot>>,
+    /// How much of its light was not followed, if that is much.
+    pub(super) left_out: Option<String>,
+}
+
+/// Why a batch gave no films.
+pub(super) enum Unrendered {
+    Stopped,
+    /// This frame of the batch; the others may do.
+    Failed(usize, RenderError),
+}
+
+/// Why a frame cannot be rendered.
+#[derive(Debug, thiserror::Error)]
+pub(super) enum RenderError {
+    /// Too large for this machine.
+    #[error(transparent)]
+    Memory(#[from] TooLarge),
+    /// The shot has a mistake that shows in this frame alone.
+    #[error("{0}")]
+    Mistakes(Box<Mistakes>),
+}
+
+/// Renders a batch, which is not empty. Bodies and trees are taken over from the image that the first
+/// frame's job rendered last.
+pub(super) fn render(
+    jobs: &mut [Job],
+    batch: &[ClaimedFrame],
+    settings: &Settings<'_>,
+) -> Result<RenderedBatch, Unrendered> {
+    let begun = Instant::now();
+    for (index, ClaimedFrame { task, .. }) in batch.iter().enumerate() {
+        let job = &mut jobs[task.job];
+        meter(job, settings.progress).map_err(|m| mistaken(index, m))?;
+        check_memory(job.options()).map_err(|error| Unrendered::Failed(index, error.into()))?;
+    }
+    let first = batch[0].task.job;
+    let kept = jobs[first].kept.take();
+    let jobs = &*jobs;
+    let frames = frames(jobs, batch)?;
+    let scenes = scenes(jobs, batch, &frames, kept.as_ref().map(|(scene, _)| scene))?;
+    let stage = stage(kept, &scenes[0]);
+    let prepare = begun.elapsed().as_secs_f64();
+    let member = |(frame, scene)| Member { frame, scene };
+    let members: Vec<Member<'_>> = frames.iter().zip(&scenes).map(member).collect();
+    let options = jobs[first].options();
+    let rays = f64::from(options.width) * f64::from(options.height) * f64::from(options.samples);
+    let work: f64 = batch.iter().map(|claimed| claimed.task.work).sum();
+    let work_per_ray = work / (rays * batch.len() as f64);
+    let watch = Watch {
+        done: &|rays| settings.progress.advance(rays as f64 * work_per_ray),
+        stop: settings.stop,
+    };
+    let rendered = render_together(&members, &stage, options, watch);
+    let mut together = rendered.map_err(|Stopped| Unrendered::Stopped)?;
+    together.prepare += prepare;
+    let begun = Instant::now();
+    let stop = settings.stop;
+    let films = batch.par_iter().zip(&members).zip(&together.films);
+    let probed = films.map(|((claimed, member), film)| {
+        let exposure = stops(&jobs[claimed.task.job], member.frame);
+        probe(*member, &stage, film, exposure, stop)
+    });
+    let probed = probed.collect();
+    together.shade += begun.elapsed().as_secs_f64();
+    Ok(RenderedBatch {
+        probed,
+        first,
+        scenes,
+        stage,
+        together,
+    })
+}
+
+/// Looks up what a picture shows beside its film; None if that takes time and the run is stopped.
+fn probe(
+    member: Member<'_>,
+    stage: &Aggregate,
+    film: &Film,
+    exposure: f64,
+    stop: &AtomicBool,
+) -> Option<Probed> {
+    let is_quick = member.frame.insets.is_empty() && film.left_out.share() <= SILENT;
+    if !is_quick && stop.load(Ordering::Relaxed) {
+        return None;
+    }
+    let size = [film.width, film.height];
+    Some(Probed {
+        insets: probe::insets(member, stage, exposure, size),
+        left_out: left_out_warning(member, stage, film),
+    })
+}
+
+/// Exposure of a frame, stops.
+pub(super) fn stops(job: &Job, frame: &Frame<'_>) -> f64 {
+    let exposing = job.exposing.as_ref();
+    exposing.map_or(0.0, |exposing| exposing.stops(frame))
+}
+
+/// Finds a shot's exposure, once.
+fn meter(job: &mut Job, progress: &Progress<'_>) -> Result<(), Mistakes> {
+    let (None, Some(prepared)) = (&job.exposing, &job.prepared) else {
+        return Ok(());
+    };
+    let (exposing, kept) = prepared.exposure()?;
+    if matches!(exposing, Exposing::Black) {
+        let path = prepared.shot.path.display();
+        progress.warn(&format!(
+            "{path}: frame 1 is black, so exposure is 0 stops; give sensor.exposure"
+        ));
+    }
+    job.exposing = Some(exposing);
+    job.kept = kept;
+    Ok(())
+}
+
+/// The frames of a batch.
+fn frames<'a>(jobs: &'a [Job], batch: &[ClaimedFrame]) -> Result<Vec<Frame<'a>>, Unrendered> {
+    let frame = |(index, ClaimedFrame { task, .. }): (usize, &ClaimedFrame)| {
+        let frame = Frame::new(jobs[task.job].folder.shot(), task.frame);
+        frame.map_err(|m| mistaken(index, m))
+    };
+    batch.iter().enumerate().map(frame).collect()
+}
+
+/// The scenes of a batch; bodies are taken over from the last one of the same shot, first from
+/// `kept`, which is of the first frame's.
+fn scenes(
+    jobs: &[Job],
+    batch: &[ClaimedFrame],
+    frames: &[Frame<'_>],
+    kept: Option<&Scene>,
+) -> Result<Vec<Scene>, Unrendered> {
+    let mut scenes: Vec<Scene> = Vec::with_capacity(batch.len());
+    for (index, claimed) in batch.iter().enumerate() {
+        let number = claimed.task.job;
+        let prepared = prepared(&jobs[number]);
+        let last = (0..index).rev().find(|&i| batch[i].task.job == number);
+        let kept = kept.filter(|_| number == batch[0].task.job);
+        let earlier = last.map(|last| &scenes[last]).or(kept);
+        let scene = Scene::resolve(&frames[index], &prepared.library, earlier);
+        scenes.push(scene.map_err(|m| mistaken(index, m))?);
+    }
+    Ok(scenes)
+}
+
+/// Bodies taken over from the last image where they stand as they stood, trees where they can be.
+fn stage(kept: Option<(Scene, Aggregate)>, scene: &Scene) -> Aggregate {
+    match kept {
+        Some((old, stage)) if Arc::ptr_eq(&old.geometry, &scene.geometry) => stage,
+        other => {
+            let earlier = other.as_ref().map(|(_, stage)| stage);
+            build_aggregate(&scene.geometry, earlier)
+        }
+    }
+}
+
+fn mistaken(index: usize, mistakes: Mistakes) -> Unrendered {
+    Unrendered::Failed(index, RenderError::Mistakes(Box::new(mistakes)))
+}
+
+fn prepared(job: &Job) -> &Prepared {
+    let prepared = job.prepared.as_ref();
+    prepared.expect("a shot with frames to be rendered is prepared first")
+}

@@ -1,0 +1,249 @@
+//! A run: the frames of some shots rendered, batch by batch, beside other processes that may be at
+//! work on the same.
+
+use super::batch::{ClaimedFrame, FrameTask, batches};
+use super::job::Job;
+use super::jobs::{Contradiction, JobList};
+use super::render_batch::{Unrendered, render};
+use super::settings::{Force, Settings};
+use super::write_batch::write;
+use crate::progress::FrameOutcome;
+use crate::shot::{Mistakes, Shot};
+use crate::store::{Claim, sweep};
+use std::collections::VecDeque;
+use std::thread::sleep;
+use std::time::Duration;
+
+/// A run of some jobs. It goes on after a frame that fails, and after a shot that can do no more.
+///
+/// # Example
+/// A shot rendered to memory:
+/// ```
+/// use restframe::progress::Progress;
+/// use restframe::queue::{Output, Run, Settings};
+/// use std::cell::RefCell;
+/// use std::path::Path;
+/// use std::sync::atomic::AtomicBool;
+///
+/// // A ball in front of a gray background, seen by a camera at rest.
+/// let text = r#"
+/// [image]
+/// size = [4, 2]
+/// [[model]]
+/// file = "assets/sphere.obj"
+/// [background]
+/// spectrum = 0.001
+/// [camera]
+/// position = [0, 0, 5]
+/// [sensor]
+/// exposure = 0
+/// "#;
+/// let shot = restframe::shot::parse(text, Path::new("grey.toml"))?;
+/// let (progress, stop) = (Progress::silent(), AtomicBool::new(false));
+/// let frames = RefCell::new(Vec::new());
+/// let keep = |frame| frames.borrow_mut().push(frame);
+/// let settings = Settings {
+///     output: Output::Memory(&keep),
+///     ..Settings::new(&progress, &stop)
+/// };
+/// let mut run = Run::open(&[shot], settings)?;
+/// run.render_all();
+/// assert!(run.jobs()[0].missing().is_empty());
+/// let (extension, png) = &frames.borrow()[0].files[0];
+/// assert_eq!((*extension, &png[1..4]), ("png", &b"PNG"[..]));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub struct Run<'a> {
+    jobs: Vec<Job>,
+    settings: Settings<'a>,
+    batches: VecDeque<Vec<FrameTask>>,
+    /// Tasks that other processes are at work on, to be looked at again.
+    held: Vec<FrameTask>,
+    /// How many tasks there were when `batches` was made.
+    pass: usize,
+    waits: usize,
+}
+
+/// Why a run is not begun.
+#[derive(Debug, thiserror::Error)]
+pub enum RunError {
+    /// It contradicts itself or its shots.
+    #[error(transparent)]
+    Contradiction(#[from] Contradiction),
+    /// Mistakes in a shot: the first that has any.
+    #[error("{0}")]
+    Mistakes(Box<Mistakes>),
+    /// Folders that cannot be read; why, was reported.
+    #[error("the folders of {0} shots cannot be read")]
+    Folders(usize),
+}
+
+impl<'a> Run<'a> {
+    /// A run of some shots, opened and prepared.
+    ///
+    /// # Errors
+    /// What is wrong with any of them: nothing is rendered then.
+    pub fn open(shots: &[Shot], settings: Settings<'a>) -> Result<Self, RunError> {
+        let mut list = JobList::open(shots, &settings)?;
+        list.prepare(&settings);
+        if let Some(mistakes) = list.mistakes.into_iter().next() {
+            return Err(RunError::Mistakes(Box::new(mistakes)));
+        }
+        match list.unreadable {
+            0 => Ok(Self::new(list.jobs, settings)),
+            unreadable => Err(RunError::Folders(unreadable)),
+        }
+    }
+
+    /// A run of jobs that have been prepared. Makes their folders ready, and reports the frames
+    /// that are there already.
+    pub fn new(mut jobs: Vec<Job>, settings: Settings<'a>) -> Self {
+        let (progress, force) = (settings.progress, settings.force);
+        for job in &mut jobs {
+            match settings.output.is_folder() {
+                true => job.prepare_folder(settings.shard),
+                false => job.prepare_memory(),
+            }
+        }
+        let mut tasks = Vec::new();
+        let mut kept = Vec::new();
+        for (number, job) in jobs.iter_mut().enumerate() {
+            let (wanted, fresh) = job.take_tasks(number, force);
+            tasks.extend(wanted);
+            kept.push(fresh);
+        }
+        let paths = jobs.iter().map(|job| job.folder.shot().path.clone());
+        let paths: Vec<_> = paths.collect();
+        let frames = jobs.iter().map(|job| job.frames().len() as u64).sum();
+        progress.start(&paths, frames, tasks.iter().map(|task| task.work).sum());
+        for (job, kept) in jobs.iter_mut().zip(kept) {
+            for frame in kept {
+                job.keep(frame, progress);
+            }
+            if let Some(why) = &job.halted {
+                let path = job.folder.shot().path.display();
+                progress.error(&format!("{path}: {why}"));
+            }
+        }
+        Self {
+            jobs,
+            settings,
+            batches: VecDeque::new(),
+            pass: usize::MAX,
+            held: tasks,
+            waits: 0,
+        }
+    }
+
+    /// The jobs.
+    pub fn jobs(&self) -> &[Job] {
+        &self.jobs
+    }
+
+    /// Renders until nothing is left to do for one more job, and returns it; each job once. None when
+    /// there is no other, or when the run was stopped.
+    pub fn next_finished(&mut self) -> Option<&mut Job> {
+        loop {
+            let is_finished = |job: &Job| !job.is_reported && job.is_settled();
+            if let Some(number) = self.jobs.iter().position(is_finished) {
+                let job = &mut self.jobs[number];
+                job.is_reported = true;
+                if self.settings.output.is_folder() {
+                    sweep(&job.folder.path, &job.folder.names);
+                }
+                job.release();
+                return Some(job);
+            }
+            if self.settings.is_stopped() || !self.next_batch() {
+                return None;
+            }
+        }
+    }
+
+    /// Renders all jobs, unless the run is stopped.
+    pub fn render_all(&mut self) {
+        while self.next_finished().is_some() {}
+    }
+
+    /// Renders the next batch, or waits for other processes; false when nothing is left.
+    fn next_batch(&mut self) -> bool {
+        if let Some(batch) = self.batches.pop_front() {
+            let claimed = self.claim(batch);
+            self.work(claimed);
+            return true;
+        }
+        let tasks = std::mem::take(&mut self.held);
+        if tasks.is_empty() {
+            return false;
+        }
+        if tasks.len() == self.pass {
+            self.wait(tasks.len());
+        }
+        self.pass = tasks.len();
+        let options: Vec<_> = self.jobs.iter().map(Job::options).collect();
+        self.batches = batches(tasks, &options).into();
+        true
+    }
+
+    /// What of a batch is this process's to render. What others are at work on is held over.
+    fn claim(&mut self, batch: Vec<FrameTask>) -> Vec<ClaimedFrame> {
+        let settings = &self.settings;
+        let progress = settings.progress;
+        let mut claimed = Vec::new();
+        for task in batch {
+            let job = &mut self.jobs[task.job];
+            if job.halted.is_some() {
+                progress.discard(task.work);
+                continue;
+            }
+            let claim = match settings.output.is_folder() {
+                true => Claim::frame(&job.folder.path, &job.folder.names, task.frame),
+                false => Ok(Some(Claim::none())),
+            };
+            match claim {
+                Ok(Some(claim)) => {
+                    let key = job.folder.keys.frame(task.frame);
+                    if settings.force == Force::No && job.was_rendered_meanwhile(&task, &key) {
+                        let reason = Some("rendered by another process".to_owned());
+                        job.settle(&task, FrameOutcome::Kept { reason }, progress);
+                    } else {
+                        claimed.push(ClaimedFrame { task, key, claim });
+                    }
+                }
+                Ok(None) => self.held.push(task),
+                Err(error) => job.fail(&task, &error.to_string(), progress),
+            }
+        }
+        claimed
+    }
+
+    /// Renders and writes a batch; the claims are dropped with it. A frame that fails is reported, and
+    /// the others are tried again.
+    fn work(&mut self, mut batch: Vec<ClaimedFrame>) {
+        let (jobs, settings) = (&mut self.jobs, &self.settings);
+        while !batch.is_empty() && !settings.is_stopped() {
+            match render(jobs, &batch, settings) {
+                Ok(rendered) => return write(jobs, batch, rendered, settings),
+                Err(Unrendered::Stopped) => return,
+                Err(Unrendered::Failed(index, error)) => {
+                    let ClaimedFrame { task, .. } = batch.remove(index);
+                    jobs[task.job].fail(&task, &error.to_string(), settings.progress);
+                }
+            }
+            settings.progress.reset_in_flight();
+        }
+    }
+
+    /// Waits for other processes, and says so once.
+    fn wait(&mut self, frames: usize) {
+        const PAUSE: Duration = Duration::from_millis(100);
+        if self.waits == 0 {
+            let s = if frames == 1 { " is" } else { "s are" };
+            self.settings.progress.warn(&format!(
+                "{frames} frame{s} being rendered by another process; this one waits for it"
+            ));
+        }
+        self.waits += 1;
+        sleep(PAUSE);
+    }
+}

@@ -1,0 +1,132 @@
+//! Journals: files of lines of JSON that are appended and never rewritten.
+//!
+//! A line is there whole or not at all, whoever else appends and however the run ends: a killed run
+//! loses at most the line it was writing, which the next line does not continue.
+
+use super::claim::knows_no_locks;
+use super::plain_file::open_plain;
+use super::write_error::explain;
+use serde::Serialize;
+use std::fs::{File, OpenOptions};
+use std::io::{self, BufRead, BufReader, Read, Seek, SeekFrom, Write};
+use std::path::{Path, PathBuf};
+
+/// Longest line that is read, bytes. Ours have some KiB.
+const LONGEST_LINE: u64 = 1 << 20;
+
+/// A journal to append to, made by its first line.
+#[derive(Debug)]
+pub(crate) struct Journal {
+    path: PathBuf,
+    /// The first line of a new journal; empty for none.
+    opening: String,
+}
+
+impl Journal {
+    /// The journal at `path`, which begins with the line `opening` if that is not empty.
+    pub(crate) fn new(path: PathBuf, opening: String) -> Self {
+        Self { path, opening }
+    }
+
+    /// Appends a line for each entry and flushes them to the disk; of no entries, makes the file.
+    ///
+    /// # Errors
+    /// Of the kind that the system reported, with the path and what to do about it; the journal
+    /// then has no part of the lines, if the system lets it be cut off.
+    pub(crate) fn append<T: Serialize>(&self, entries: &[T]) -> io::Result<()> {
+        let lines = entries.iter().map(serde_json::to_string);
+        let lines = lines.collect::<Result<Vec<_>, _>>()?;
+        self.append_lines(&lines)
+            .map_err(|error| explain(&self.path, &error))
+    }
+
+    fn append_lines(&self, lines: &[String]) -> io::Result<()> {
+        let mut options = OpenOptions::new();
+        options.read(true).append(true).create(true);
+        let mut file = open_plain(&self.path, &options)?;
+        match file.lock() {
+            Err(error) if !knows_no_locks(&error) => return Err(error),
+            _ => {}
+        }
+        let length = file.seek(SeekFrom::End(0))?;
+        let mut text = match length {
+            0 if self.opening.is_empty() => String::new(),
+            0 => format!("{}\n", self.opening),
+            _ if ends_a_line(&mut file)? => String::new(),
+            // A killed run was writing there.
+            _ => "\n".to_owned(),
+        };
+        for line in lines {
+            text.push_str(line);
+            text.push('\n');
+        }
+        if text.is_empty() {
+            return Ok(());
+        }
+        let written = file
+            .write_all(text.as_bytes())
+            .and_then(|()| file.sync_all());
+        if written.is_err() {
+            // The first error is the one to report.
+            let _ = file.set_len(length);
+        }
+        written
+    }
+}
+
+fn ends_a_line(file: &mut File) -> io::Result<bool> {
+    let mut last = [0];
+    file.seek(SeekFrom::End(-1))?;
+    file.read_exact(&mut last)?;
+    Ok(last == *b"\n")
+}
+
+/// Calls `each` with the lines of the journal at `path`.
+///
+/// # Errors
+/// A file that is not there, is no plain file, or cannot be read.
+pub(crate) fn each_line(path: &Path, each: impl FnMut(&[u8])) -> io::Result<()> {
+    let file = open_plain(path, OpenOptions::new().read(true))?;
+    lines_of(BufReader::new(file), each)
+}
+
+/// Anybody may have written a journal: a line that is longer than any of ours is passed over, and
+/// takes no memory.
+fn lines_of(mut journal: impl BufRead, mut each: impl FnMut(&[u8])) -> io::Result<()> {
+    let mut line = Vec::new();
+    loop {
+        line.clear();
+        let mut start = journal.by_ref().take(LONGEST_LINE);
+        let length = start.read_until(b'\n', &mut line)?;
+        match line.last() {
+            None => return Ok(()),
+            Some(b'\n') => each(&line),
+            Some(_) if length as u64 == LONGEST_LINE => {
+                journal.skip_until(b'\n')?;
+            }
+            Some(_) => each(&line),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lines_are_told_one_by_one_and_those_longer_than_any_of_ours_are_not() {
+        let longest = LONGEST_LINE as usize;
+        let fits = "f".repeat(longest - 1);
+        let text = format!(
+            "first\n\n{fits}\n{}\n{}\nlast",
+            "t".repeat(longest),
+            "u".repeat(3 * longest)
+        );
+        let mut lines = Vec::new();
+        lines_of(text.as_bytes(), |line| {
+            lines.push(line.trim_ascii().to_vec())
+        })
+        .expect("in memory");
+        assert_eq!(lines, [&b"first"[..], b"", fits.as_bytes(), b"last"]);
+    }
+}

@@ -1,0 +1,109 @@
+//! Names of a shot's files: frames, manifests, and what is assembled.
+
+use crate::shot::Shot;
+
+/// The claim under which a sequence is assembled.
+pub const SEQUENCE: &str = "sequence";
+
+/// What the names of assembled files end in.
+pub const ASSEMBLED: [&str; 5] = ["sheet.png", "gif", "apng", "mp4", "av1.mp4"];
+
+/// Name of the overview of a shot's frames.
+pub const PAGE: &str = "index.html";
+
+/// The names of one shot's files, all in one folder.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Names {
+    /// What all names begin with: the shot file's stem.
+    pub stem: String,
+    digits: usize,
+}
+
+impl Names {
+    /// The names of a shot's files. Frame numbers have at least four digits, and as many in all.
+    pub fn new(shot: &Shot) -> Self {
+        let stem = shot.path.file_stem().unwrap_or_default();
+        Self {
+            stem: stem.to_string_lossy().into_owned(),
+            digits: shot.shot.frames.to_string().len().max(4),
+        }
+    }
+
+    /// The names in a folder called as its shot's stem; its frames are not counted.
+    pub(crate) fn of_stem(stem: String) -> Self {
+        Self { stem, digits: 4 }
+    }
+
+    /// STEM.0012.png
+    pub fn frame(&self, frame: u32, extension: &str) -> String {
+        format!("{}.{}.{extension}", self.stem, self.number(frame))
+    }
+
+    /// The frame's number and extension, if a file name is one of a frame, of any shot length.
+    pub fn frame_of<'a>(&self, name: &'a str) -> Option<(u32, &'a str)> {
+        let rest = name.strip_prefix(&self.stem)?.strip_prefix('.')?;
+        let (number, extension) = rest.split_once('.')?;
+        let known = matches!(extension, "png" | "exr");
+        (is_number(number) && known).then_some((number.parse().ok()?, extension))
+    }
+
+    /// A frame's number as it stands in the names of its files: 0012.
+    pub fn number(&self, frame: u32) -> String {
+        let digits = self.digits;
+        format!("{frame:0digits$}")
+    }
+
+    /// .STEM.locks, the folder of the claims.
+    pub fn locks(&self) -> String {
+        format!(".{}.locks", self.stem)
+    }
+
+    /// Of a temporary file ([`AtomicFile`](super::AtomicFile)): the name of the claim under which it
+    /// is written. None if it is no such file of this shot.
+    pub fn claim_of_temporary(&self, name: &str) -> Option<String> {
+        let (target, mark) = name.strip_suffix(".tmp")?.rsplit_once('.')?;
+        if !is_random(mark) {
+            return None;
+        }
+        if target == PAGE {
+            return Some(SEQUENCE.to_owned());
+        }
+        let suffix = target.strip_prefix(&self.stem)?.strip_prefix('.')?;
+        if self.frame_of(target).is_some() {
+            let number = suffix.split('.').next()?;
+            return Some(number.to_owned());
+        }
+        let is_assembled = ASSEMBLED.contains(&suffix);
+        is_assembled.then(|| SEQUENCE.to_owned())
+    }
+
+    /// STEM.manifest.jsonl, or STEM.manifest.K-N.jsonl of a shard.
+    pub fn manifest(&self, shard: Option<[u32; 2]>) -> String {
+        match shard {
+            None => format!("{}.manifest.jsonl", self.stem),
+            Some([k, n]) => format!("{}.manifest.{k}-{n}.jsonl", self.stem),
+        }
+    }
+
+    /// Whether a file name is that of a manifest of this shot.
+    pub fn is_manifest(&self, name: &str) -> bool {
+        let rest = name.strip_prefix(&self.stem);
+        rest.and_then(|rest| rest.strip_prefix(".manifest."))
+            .is_some_and(|rest| rest == "jsonl" || rest.ends_with(".jsonl"))
+    }
+
+    /// STEM.SUFFIX, of what is assembled, one of [`ASSEMBLED`].
+    pub fn assembled(&self, suffix: &str) -> String {
+        format!("{}.{suffix}", self.stem)
+    }
+}
+
+/// Whether a temporary file has this mark: six letters and digits.
+fn is_random(mark: &str) -> bool {
+    mark.len() == 6 && mark.bytes().all(|byte| byte.is_ascii_alphanumeric())
+}
+
+/// Whether a name, or a part of it, is a frame's number.
+pub(super) fn is_number(name: &str) -> bool {
+    name.len() >= 4 && name.bytes().all(|byte| byte.is_ascii_digit())
+}
