@@ -91,6 +91,29 @@ fn a_frame_alone_is_the_frame_in_its_sequence_also_where_materials_come_to_look_
     }
 }
 
+/// They stand in the folder that the request names: a run to memory does not look there.
+#[test]
+fn a_run_to_memory_renders_frames_that_are_finished_on_the_disk() {
+    let folder = two("finished", "0.8", "0.2");
+    let shot = folder.join("two.toml");
+    let out = folder.join("out");
+    render(&shot, "1-", &out);
+    let (progress, stop) = (Progress::silent(), AtomicBool::new(false));
+    let numbers = RefCell::new(Vec::new());
+    let keep = |frame: RenderedFrame| numbers.borrow_mut().push(frame.frame);
+    let settings = Settings {
+        request: Request {
+            out,
+            ..Request::default()
+        },
+        output: Output::Memory(&keep),
+        ..Settings::new(&progress, &stop)
+    };
+    let shot = restframe::shot::load(&shot).unwrap();
+    Run::open(&[shot], settings).unwrap().render_all();
+    assert_eq!(*numbers.borrow(), [1, 2, 3]);
+}
+
 #[test]
 fn a_run_to_memory_has_the_bytes_of_one_to_a_folder_and_leaves_no_file() {
     let folder = two("memory", "0.8", "0.2");

@@ -96,7 +96,7 @@ impl<'a> Run<'a> {
     /// A run of jobs that have been prepared. Makes their folders ready, and reports the frames
     /// that are there already.
     pub fn new(mut jobs: Vec<Job>, settings: Settings<'a>) -> Self {
-        let (progress, force) = (settings.progress, settings.force);
+        let progress = settings.progress;
         for job in &mut jobs {
             match settings.output.is_folder() {
                 true => job.prepare_folder(settings.shard),
@@ -106,7 +106,7 @@ impl<'a> Run<'a> {
         let mut tasks = Vec::new();
         let mut kept = Vec::new();
         for (number, job) in jobs.iter_mut().enumerate() {
-            let (wanted, fresh) = job.take_tasks(number, force);
+            let (wanted, fresh) = job.take_tasks(number, &settings);
             tasks.extend(wanted);
             kept.push(fresh);
         }
@@ -201,7 +201,8 @@ impl<'a> Run<'a> {
             match claim {
                 Ok(Some(claim)) => {
                     let key = job.folder.keys.frame(task.frame);
-                    if settings.force == Force::No && job.was_rendered_meanwhile(&task, &key) {
+                    let may_be_there = settings.output.is_folder() && settings.force == Force::No;
+                    if may_be_there && job.was_rendered_meanwhile(&task, &key) {
                         let reason = Some("rendered by another process".to_owned());
                         job.settle(&task, FrameOutcome::Kept { reason }, progress);
                     } else {
