@@ -2,7 +2,6 @@
 use restframe::progress::{Event, FrameOutcome, Progress};
 use restframe::queue::{Force, Output, RenderedFrame, Run, Settings};
 use restframe::store::Request;
-use std::cell::RefCell;
 use std::fs;
 use std::path::Path;
 use std::sync::Mutex;
@@ -99,8 +98,8 @@ fn a_run_to_memory_renders_frames_that_are_finished_on_the_disk() {
     let out = folder.join("out");
     render(&shot, "1-", &out);
     let (progress, stop) = (Progress::silent(), AtomicBool::new(false));
-    let numbers = RefCell::new(Vec::new());
-    let keep = |frame: RenderedFrame| numbers.borrow_mut().push(frame.frame);
+    let numbers = Mutex::new(Vec::new());
+    let keep = |frame: RenderedFrame| numbers.lock().unwrap().push(frame.frame);
     let settings = Settings {
         request: Request {
             out,
@@ -111,7 +110,7 @@ fn a_run_to_memory_renders_frames_that_are_finished_on_the_disk() {
     };
     let shot = restframe::shot::load(&shot).unwrap();
     Run::open(&[shot], settings).unwrap().render_all();
-    assert_eq!(*numbers.borrow(), [1, 2, 3]);
+    assert_eq!(*numbers.lock().unwrap(), [1, 2, 3]);
 }
 
 #[test]
@@ -128,8 +127,8 @@ fn a_run_to_memory_has_the_bytes_of_one_to_a_folder_and_leaves_no_file() {
         }
     });
     let stop = AtomicBool::new(false);
-    let frames = RefCell::new(Vec::new());
-    let keep = |frame: RenderedFrame| frames.borrow_mut().push(frame);
+    let frames = Mutex::new(Vec::new());
+    let keep = |frame: RenderedFrame| frames.lock().unwrap().push(frame);
     let settings = Settings {
         request: Request {
             out: unused.clone(),
@@ -142,7 +141,7 @@ fn a_run_to_memory_has_the_bytes_of_one_to_a_folder_and_leaves_no_file() {
     let mut run = Run::open(&[shot], settings).unwrap();
     assert!(run.next_finished().is_some() && run.next_finished().is_none());
     assert_eq!(*settled.lock().unwrap(), [1, 2, 3]);
-    for frame in frames.borrow().iter() {
+    for frame in frames.lock().unwrap().iter() {
         let RenderedFrame { files, record, .. } = frame;
         let (extension, bytes) = &files[0];
         assert_eq!((files.len(), *extension), (1, "png"));
@@ -150,6 +149,6 @@ fn a_run_to_memory_has_the_bytes_of_one_to_a_folder_and_leaves_no_file() {
         let same = fs::read(out.join("two").join(&record.files[0].name)).unwrap() == *bytes;
         assert!(same, "frame {}", frame.frame);
     }
-    assert_eq!(frames.borrow().len(), 3);
+    assert_eq!(frames.lock().unwrap().len(), 3);
     assert!(!unused.exists());
 }

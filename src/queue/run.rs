@@ -21,8 +21,8 @@ use std::time::Duration;
 /// ```
 /// use restframe::progress::Progress;
 /// use restframe::queue::{Output, Run, Settings};
-/// use std::cell::RefCell;
 /// use std::path::Path;
+/// use std::sync::Mutex;
 /// use std::sync::atomic::AtomicBool;
 ///
 /// // A grey background, seen by a camera at rest.
@@ -38,8 +38,8 @@ use std::time::Duration;
 /// "#;
 /// let shot = restframe::shot::parse(text, Path::new("grey.toml"))?;
 /// let (progress, stop) = (Progress::silent(), AtomicBool::new(false));
-/// let frames = RefCell::new(Vec::new());
-/// let keep = |frame| frames.borrow_mut().push(frame);
+/// let frames = Mutex::new(Vec::new());
+/// let keep = |frame| frames.lock().expect("no panic").push(frame);
 /// let settings = Settings {
 ///     output: Output::Memory(&keep),
 ///     ..Settings::new(&progress, &stop)
@@ -47,7 +47,7 @@ use std::time::Duration;
 /// let mut run = Run::open(&[shot], settings)?;
 /// run.render_all();
 /// assert!(run.jobs()[0].missing().is_empty());
-/// let (extension, png) = &frames.borrow()[0].files[0];
+/// let (extension, png) = &frames.into_inner()?[0].files[0];
 /// assert_eq!((*extension, &png[1..4]), ("png", &b"PNG"[..]));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```

@@ -64,7 +64,7 @@ pub enum Output<'a> {
     Folder,
     /// To the caller, frame by frame as they are finished. Nothing is read but what shots name, and
     /// nothing is written.
-    Memory(&'a dyn Fn(RenderedFrame)),
+    Memory(&'a (dyn Fn(RenderedFrame) + Sync)),
 }
 
 impl Output<'_> {
