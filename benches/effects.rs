@@ -9,6 +9,7 @@ mod read;
 
 use divan::Bencher;
 use read::read;
+use restframe::frame::Frame;
 use restframe::render::{Options, render};
 use std::path::Path;
 
@@ -88,7 +89,15 @@ exposure = 0
         .build()
         .expect("a thread can be had");
     bencher.bench_local(|| {
-        one_thread.install(|| render(&prepared.shot, 1, &resolved, &stage, &options, &|_| ()))
+        one_thread.install(|| {
+            render(
+                &Frame::new(&prepared.shot, 1).expect("it moves"),
+                &resolved,
+                &stage,
+                &options,
+                &|_| (),
+            )
+        })
     });
 }
 

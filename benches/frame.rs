@@ -4,6 +4,7 @@
 mod shell;
 
 use divan::Bencher;
+use restframe::frame::Frame;
 use restframe::render::{Options, render};
 use shell::shell;
 
@@ -24,7 +25,15 @@ fn frame(bencher: Bencher<'_, '_>, beta: f64, lamp: &str, effects: &str, accurac
         .build()
         .expect("a thread can be had");
     bencher.bench_local(|| {
-        one_thread.install(|| render(&prepared.shot, 1, &scene, &stage, &options, &|_| ()))
+        one_thread.install(|| {
+            render(
+                &Frame::new(&prepared.shot, 1).expect("it moves"),
+                &scene,
+                &stage,
+                &options,
+                &|_| (),
+            )
+        })
     });
 }
 

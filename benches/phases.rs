@@ -9,6 +9,7 @@ use divan::{Bencher, black_box, counter::ItemsCount};
 use read::read;
 use restframe::accel::Aggregate;
 use restframe::film::{Development, Film, develop};
+use restframe::frame::Frame;
 use restframe::image::exr::{self, Depth};
 use restframe::image::{Metadata, png};
 use restframe::render::Prepared;
@@ -56,7 +57,15 @@ impl Picture {
             .build()
             .expect("a thread can be had");
         bencher.counter(ItemsCount::new(rays)).bench_local(|| {
-            one_thread.install(|| render(&prepared.shot, 1, &scene, &stage, &options, &|_| ()))
+            one_thread.install(|| {
+                render(
+                    &Frame::new(&prepared.shot, 1).expect("it moves"),
+                    &scene,
+                    &stage,
+                    &options,
+                    &|_| (),
+                )
+            })
         });
     }
 
@@ -183,17 +192,13 @@ fn film() -> (Film, Development) {
     };
     let (prepared, scene, stage) = picture.read();
     let film = render(
-        &prepared.shot,
-        1,
+        &Frame::new(&prepared.shot, 1).expect("it moves"),
         &scene,
         &stage,
         &picture.options(),
         &|_| (),
     );
-    (
-        film.expect("nothing moves"),
-        development(&prepared.shot, 0.0),
-    )
+    (film, development(prepared.shot.sensor.color, 0.0))
 }
 
 #[divan::bench(sample_count = 50, max_time = 2)]

@@ -9,6 +9,7 @@ use divan::Bencher;
 use rayon::prelude::*;
 use restframe::accel::Aggregate;
 use restframe::film::Film;
+use restframe::frame::Frame;
 use restframe::render::Prepared;
 use restframe::render::{
     Member, Options, PictureInfo, Watch, encode, film_bytes, render, render_together,
@@ -66,21 +67,25 @@ impl Images {
     }
 
     fn together(&self, count: usize) -> Vec<Film> {
-        let member = Member {
-            shot: &self.prepared.shot,
-            frame: 1,
-            scene: &self.scene,
-        };
+        let frame = &Frame::new(&self.prepared.shot, 1).expect("it moves");
+        let scene = &self.scene;
+        let member = Member { frame, scene };
         let members = vec![member; count];
         films(&self.pool, &members, &self.stage, &self.options)
     }
 
     fn alone(&self, count: usize) -> Vec<Film> {
         let (shot, scene, stage) = (&self.prepared.shot, &self.scene, &self.stage);
-        let one = |_| render(shot, 1, scene, stage, &self.options, &|_| ());
-        let films = self.pool.install(|| (0..count).map(one).collect());
-        let films: Result<_, _> = films;
-        films.expect("nothing keeps it from rendering")
+        let one = |_| {
+            render(
+                &Frame::new(shot, 1).expect("it moves"),
+                scene,
+                stage,
+                &self.options,
+                &|_| (),
+            )
+        };
+        self.pool.install(|| (0..count).map(one).collect())
     }
 }
 
@@ -154,18 +159,19 @@ fn time_ramp(frames: u32) {
     };
     let pool = rayon::ThreadPoolBuilder::new().build();
     let pool = pool.expect("threads can be had");
-    let resolve = |frame, earlier: Option<&Scene>| {
-        Scene::resolve(&shot, &library, frame, earlier).expect("it resolves")
+    let frame = |number| Frame::new(&shot, number).expect("it moves");
+    let resolve = |frame: &Frame<'_>, earlier: Option<&Scene>| {
+        Scene::resolve(frame, &library, earlier).expect("it resolves")
     };
-    let first = resolve(1, None);
+    let first = resolve(&frame(1), None);
     let stage = build_aggregate(&first.geometry, None);
-    let encode = |frame, scene: &Scene, film: &Film| {
+    let encode = |frame: &Frame<'_>, scene: &Scene, film: &Film| {
         let taken = PictureInfo {
             exposure_stops: -9.3,
             samples: 16,
             fingerprint: None,
         };
-        let files = encode(&shot, frame, scene, film, &[], taken);
+        let files = encode(frame, scene, film, &[], taken);
         files.expect("it can be encoded").files[0].1.len()
     };
 
@@ -174,13 +180,10 @@ fn time_ramp(frames: u32) {
     let held = (HELD / film_bytes(&options)) as usize;
     let numbers: Vec<u32> = (1..=frames).collect();
     for batch in numbers.chunks(held) {
-        let scenes: Vec<Scene> = batch.iter().map(|f| resolve(*f, Some(&first))).collect();
-        let member = |(frame, scene)| Member {
-            shot: &shot,
-            frame,
-            scene,
-        };
-        let members: Vec<_> = batch.iter().copied().zip(&scenes).map(member).collect();
+        let frames: Vec<Frame<'_>> = batch.iter().map(|number| frame(*number)).collect();
+        let scenes: Vec<Scene> = frames.iter().map(|f| resolve(f, Some(&first))).collect();
+        let member = |(frame, scene)| Member { frame, scene };
+        let members: Vec<_> = frames.iter().zip(&scenes).map(member).collect();
         let films = films(&pool, &members, &stage, &options);
         let sizes: Vec<usize> = pool.install(|| {
             let all = members.par_iter().zip(&films);
@@ -193,13 +196,11 @@ fn time_ramp(frames: u32) {
 
     let begun = Instant::now();
     let mut alone = Vec::new();
-    for frame in 1..=frames {
-        let scene = resolve(frame, Some(&first));
-        let render = || render(&shot, frame, &scene, &stage, &options, &|_| ());
-        let film = pool
-            .install(render)
-            .expect("nothing keeps it from rendering");
-        alone.push(pool.install(|| encode(frame, &scene, &film)));
+    for number in 1..=frames {
+        let frame = frame(number);
+        let scene = resolve(&frame, Some(&first));
+        let film = pool.install(|| render(&frame, &scene, &stage, &options, &|_| ()));
+        alone.push(pool.install(|| encode(&frame, &scene, &film)));
     }
     let apart = begun.elapsed().as_secs_f64();
     assert_eq!(together, alone, "the files are the same");

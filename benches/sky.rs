@@ -3,7 +3,7 @@
 
 use divan::{Bencher, black_box};
 use glam::DVec3;
-use restframe::plan;
+use restframe::frame::{Frame, Sensor};
 use restframe::scene::sky::{SkyImage, Star, Stars, random_stars};
 use restframe::scene::{Library, Scene};
 use restframe::shade::{Settings, ShadeScratch, Shader};
@@ -48,12 +48,15 @@ fn light(bencher: Bencher<'_, '_>, sky: &str, doppler: f64) {
     );
     let shot = shot::parse(&text, &path("shot.toml")).expect("a shot");
     let library = Library::load(&shot).expect("files");
-    let scene = Scene::resolve(&shot, &library, 1, None).expect("a scene");
-    let called = plan::called(&shot, 1, &shot.effects).expect("it moves");
+    let scene =
+        Scene::resolve(&Frame::new(&shot, 1).expect("it moves"), &library, None).expect("a scene");
+    let called = Frame::new(&shot, 1)
+        .expect("it moves")
+        .active_effects(&shot.effects);
     let settings = Settings {
         called: &called,
         accuracy: &shot.accuracy,
-        sensor: &shot.sensor,
+        sensor: &Sensor::new(&shot.sensor),
         reach: 1.0,
         lamp_reach: 0.0,
     };

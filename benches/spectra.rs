@@ -5,7 +5,7 @@ mod shell;
 
 use divan::{Bencher, black_box};
 use restframe::accel::Hit;
-use restframe::plan;
+use restframe::frame::{Frame, Sensor};
 use restframe::shade::{Settings, ShadeScratch, Shader};
 use restframe::trace::{DirectLight, Node, Root, Seen, ShadeTrees, Surface};
 use shell::shell;
@@ -36,11 +36,13 @@ fn lines(bencher: Bencher<'_, '_>, spacing_nm: f64, lamp_doppler: f64) {
 /// XYZ of one lit surface at D = 1.2, the lamp at `lamp_doppler` to it.
 fn shade(bencher: Bencher<'_, '_>, effects: &str, accuracy: &str, lamp_doppler: f64) {
     let (prepared, scene, _) = shell(0.5, "shell", effects, accuracy);
-    let called = plan::called(&prepared.shot, 1, &prepared.shot.effects).expect("it moves");
+    let called = Frame::new(&prepared.shot, 1)
+        .expect("it moves")
+        .active_effects(&prepared.shot.effects);
     let settings = Settings {
         called: &called,
         accuracy: &prepared.shot.accuracy,
-        sensor: &prepared.shot.sensor,
+        sensor: &Sensor::new(&prepared.shot.sensor),
         reach: 1.0,
         lamp_reach: 1.0,
     };

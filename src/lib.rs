@@ -4,7 +4,7 @@
 //! ```text
 //!             relativity      spectrum                       leaves: import nothing of ours
 //!                  \             /
-//!  shot ──> plan ──> scene ──> trace ──> shade ──> film      steps: values, one direction
+//!  shot ──> frame ─> scene ──> trace ──> shade ──> film      steps: values, one direction
 //!             │                                     │
 //!             └────────── render, probe ────────────┘
 //!                               │
@@ -19,7 +19,7 @@
 //! - [`spectrum`]: curves over wavelength. Finite and non-negative at every wavelength above 0.
 //! - [`shot`]: the TOML as its author wrote it. A [`shot::Shot`] that exists has no mistake that
 //!   its own text could show.
-//! - [`plan`]: the effects that an image calls for. No mesh, no pixel.
+//! - [`frame`]: the effects that an image calls for. No mesh, no pixel.
 //! - [`scene`]: one image's bodies, lamps and camera. Nothing is optional, relative or a name.
 //! - [`accel`]: batches of rays to hits and occlusion: trees, instances, triangles.
 //! - [`trace`]: nearest hits over all worldlines, and shade trees. No spectrum.
@@ -61,9 +61,9 @@ pub mod accel;
 pub mod cli;
 pub mod color;
 pub mod film;
+pub mod frame;
 pub mod image;
 pub mod model;
-pub mod plan;
 pub mod plot;
 pub mod probe;
 pub mod progress;

@@ -4,9 +4,10 @@ use crate::common::WALL;
 use base64::prelude::{BASE64_STANDARD, Engine};
 use restframe::accel::Aggregate;
 use restframe::film::{Film, SILENT};
+use restframe::frame::Frame;
 use restframe::probe::{Probe, probe};
 use restframe::render::Prepared;
-use restframe::render::{Enough, Member, Options, View, enough_bounces, render, rows, spliced};
+use restframe::render::{Enough, Member, Options, View, enough_bounces, render};
 use restframe::scene::Scene;
 use restframe::trace::build_aggregate;
 use std::path::Path;
@@ -28,12 +29,12 @@ fn sees(text: &str, pixel: [u32; 2]) -> Probe {
     .unwrap();
     let prepared = Prepared::read(&path).unwrap();
     let shot = &prepared.shot;
-    let scene = Scene::resolve(shot, &prepared.library, 1, None).unwrap();
+    let frame = Frame::new(shot, 1).unwrap();
+    let scene = Scene::resolve(&frame, &prepared.library, None).unwrap();
     let stage = build_aggregate(&scene.geometry, None);
-    let splice = shot.splice.iter().find(|s| rows(s, 9).contains(&pixel[1]));
-    let effects = splice.map_or(shot.effects, |splice| spliced(&shot.effects, splice));
-    let view = View::new(shot, 1, &effects, &scene, &stage).unwrap();
-    probe(shot, 1, pixel, &view, &scene, 0.0)
+    let effects = frame.effects_at(pixel[1]);
+    let view = View::new(&frame, &effects, &scene, &stage);
+    probe(&frame, pixel, &view, &scene, 0.0)
 }
 
 /// An octahedron of which only the front is there, as Blender exports with backface culling.
@@ -124,7 +125,8 @@ fn film_of<T>(bounces: u32, look: impl FnOnce(Member<'_>, &Aggregate, &Film) -> 
     std::fs::write(&path, format!("{head}{}", furnace(1e-4, bounces))).unwrap();
     let prepared = Prepared::read(&path).unwrap();
     let shot = &prepared.shot;
-    let scene = Scene::resolve(shot, &prepared.library, 1, None).unwrap();
+    let values = Frame::new(shot, 1).unwrap();
+    let scene = Scene::resolve(&values, &prepared.library, None).unwrap();
     let stage = build_aggregate(&scene.geometry, None);
     let options = Options {
         width: 96,
@@ -132,12 +134,10 @@ fn film_of<T>(bounces: u32, look: impl FnOnce(Member<'_>, &Aggregate, &Film) -> 
         samples: 4,
         layers: Vec::new(),
     };
-    let film = render(shot, 1, &scene, &stage, &options, &|_| ()).unwrap();
-    let member = Member {
-        shot,
-        frame: 1,
-        scene: &scene,
-    };
+    let film = render(&values, &scene, &stage, &options, &|_| ());
+    let frame = &values;
+    let scene = &scene;
+    let member = Member { frame, scene };
     look(member, &stage, &film)
 }
 
@@ -157,7 +157,7 @@ fn of_glass_in_an_even_sky_what_is_left_out_is_what_is_lacking() {
             );
             assert!(share > 0.0, "{bounces}");
             let size = [film.width, film.height];
-            let enough = enough_bounces(member, stage, size, &film.left_out).unwrap();
+            let enough = enough_bounces(member, stage, size, &film.left_out);
             if share <= SILENT {
                 return;
             }
@@ -183,7 +183,7 @@ fn what_is_left_out_is_the_same_on_any_number_of_threads() {
         let pool = pool.build().unwrap();
         pool.install(|| {
             film_of(1, |member, stage, film| {
-                let enough = enough_bounces(member, stage, [96, 96], &film.left_out).unwrap();
+                let enough = enough_bounces(member, stage, [96, 96], &film.left_out);
                 (film.left_out, enough)
             })
         })

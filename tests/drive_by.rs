@@ -1,5 +1,6 @@
 //! Light delay as `shots/drive-by.toml` shows it: a lattice that passes at 0.9 c is seen where it
 //! was when its light left, worked out here from the light cone alone.
+use restframe::frame::Frame;
 use restframe::probe::{Probe, probe};
 use restframe::render::Prepared;
 use restframe::render::View;
@@ -48,10 +49,23 @@ fn with(lines: &[(&str, &str)]) -> Prepared {
 /// What pixels of a frame see.
 fn probes(prepared: &Prepared, frame: u32, pixels: &[[u32; 2]]) -> Vec<Probe> {
     let shot = &prepared.shot;
-    let scene = Scene::resolve(shot, &prepared.library, frame, None).unwrap();
+    let scene = Scene::resolve(&Frame::new(shot, frame).unwrap(), &prepared.library, None).unwrap();
     let stage = build_aggregate(&scene.geometry, None);
-    let view = View::new(shot, frame, &shot.effects, &scene, &stage).unwrap();
-    let look = |pixel: &[u32; 2]| probe(shot, frame, *pixel, &view, &scene, 0.0);
+    let view = View::new(
+        &Frame::new(shot, frame).unwrap(),
+        &shot.effects,
+        &scene,
+        &stage,
+    );
+    let look = |pixel: &[u32; 2]| {
+        probe(
+            &Frame::new(shot, frame).unwrap(),
+            *pixel,
+            &view,
+            &scene,
+            0.0,
+        )
+    };
     pixels.iter().map(look).collect()
 }
 

@@ -8,6 +8,7 @@
 //!
 //! `RESTFRAME_FIGURE=write cargo test --test suite figure_1::` (scripts/figure-1) renews the figure.
 
+use restframe::frame::Frame;
 use restframe::plot::{Axis, Color, Page, Panel, Plot, Scale, Series, Stroke, lay_out, svg};
 use restframe::probe::{Probe, probe};
 use restframe::render::Prepared;
@@ -55,10 +56,11 @@ fn probes() -> Vec<Probe> {
     let shot = &prepared.shot;
     (1..=shot.shot.frames)
         .map(|frame| {
-            let scene = Scene::resolve(shot, &prepared.library, frame, None).unwrap();
+            let values = Frame::new(shot, frame).unwrap();
+            let scene = Scene::resolve(&values, &prepared.library, None).unwrap();
             let stage = build_aggregate(&scene.geometry, None);
-            let view = View::new(shot, frame, &shot.effects, &scene, &stage).unwrap();
-            probe(shot, frame, [0, 0], &view, &scene, 0.0)
+            let view = View::new(&values, &shot.effects, &scene, &stage);
+            probe(&values, [0, 0], &view, &scene, 0.0)
         })
         .collect()
 }

@@ -3,7 +3,7 @@
 use glam::DVec3;
 use restframe::accel::Hit;
 use restframe::color::cie;
-use restframe::plan;
+use restframe::frame::{Frame, Sensor};
 use restframe::render::Prepared;
 use restframe::scene::sky::{SkyImage, Star, Stars};
 use restframe::scene::{Library, Scene};
@@ -93,16 +93,16 @@ fn scene() -> (Shot, Scene) {
     let text: String = MATERIALS.iter().map(wall).collect::<String>() + SHOT;
     let shot = shot::parse(&text, &folder.join("held.toml")).unwrap();
     let library = Library::load(&shot).unwrap();
-    let scene = Scene::resolve(&shot, &library, 1, None).unwrap();
+    let scene = Scene::resolve(&Frame::new(&shot, 1).unwrap(), &library, None).unwrap();
     (shot, scene)
 }
 
 fn shader(shot: &Shot, scene: &Scene) -> Shader {
-    let called = plan::called(shot, 1, &shot.effects).unwrap();
+    let called = Frame::new(shot, 1).unwrap().active_effects(&shot.effects);
     let settings = Settings {
         called: &called,
         accuracy: &shot.accuracy,
-        sensor: &shot.sensor,
+        sensor: &Sensor::new(&shot.sensor),
         reach: 3.0,
         lamp_reach: 3.0,
     };

@@ -2,7 +2,7 @@
 //! and under any shift: against `accuracy.spectra = "exact"`, and in closed form.
 use restframe::accel::Hit;
 use restframe::color::cie::{EFFICACY, xyz_bar};
-use restframe::plan;
+use restframe::frame::{Frame, Sensor};
 use restframe::scene::{
     Bsdf, Curve, Library, Lobe, LobeKind, Material, Reflectance, Scene, Thermal,
 };
@@ -143,7 +143,7 @@ impl Wall {
         std::fs::write(folder.path().join("quad.obj"), quad).unwrap();
         let shot = shot::parse(SHOT, &folder.path().join("narrow.toml")).unwrap();
         let library = Library::load(&shot).unwrap();
-        let scene = Scene::resolve(&shot, &library, 1, None).unwrap();
+        let scene = Scene::resolve(&Frame::new(&shot, 1).unwrap(), &library, None).unwrap();
         Self { shot, scene }
     }
 
@@ -174,11 +174,13 @@ impl Wall {
         if let Some(lamp) = &light.lamp {
             self.scene.lights[0].spectrum = Arc::clone(lamp);
         }
-        let called = plan::called(&self.shot, 1, &self.shot.effects).unwrap();
+        let called = Frame::new(&self.shot, 1)
+            .unwrap()
+            .active_effects(&self.shot.effects);
         let settings = Settings {
             called: &called,
             accuracy: &accuracy,
-            sensor: &self.shot.sensor,
+            sensor: &Sensor::new(&self.shot.sensor),
             reach,
             lamp_reach: 1.0,
         };

@@ -79,7 +79,7 @@ fn record(shot_folder: &ShotFolder, frame: u32, bytes: u64) -> Record {
     Record {
         frame,
         fingerprint: key.fingerprint,
-        parts: key.parts,
+        parts: key.inputs,
         files: vec![FileRecord {
             name: shot_folder.names.frame(frame, "png"),
             bytes,

@@ -2,9 +2,9 @@
 
 use crate::common::WALL;
 use crate::common::desk::{Desk, Outcome};
+use restframe::frame::FrameFingerprint;
 use restframe::image;
 use restframe::image::Metadata;
-use restframe::plan::FrameKey;
 use restframe::queue::Costs;
 use restframe::shot;
 use restframe::store::{Names, Request, ShotFolder};
@@ -81,7 +81,7 @@ fn finish(desk: &Desk, frames: &[(u32, f64)]) {
 }
 
 /// A picture of so many bytes that says what it is made of.
-fn picture(key: &FrameKey) -> Vec<u8> {
+fn picture(key: &FrameFingerprint) -> Vec<u8> {
     let metadata = |comments| Metadata {
         fingerprint: Some(key.fingerprint.clone()),
         comments,
@@ -95,9 +95,9 @@ fn picture(key: &FrameKey) -> Vec<u8> {
 /// Bytes of a picture.
 const BYTES: usize = 1000;
 
-fn record(frame: u32, key: &FrameKey, name: &str, seconds: f64) -> Value {
+fn record(frame: u32, key: &FrameFingerprint, name: &str, seconds: f64) -> Value {
     json!({
-        "frame": frame, "fingerprint": key.fingerprint, "parts": key.parts,
+        "frame": frame, "fingerprint": key.fingerprint, "parts": key.inputs,
         "files": [{"name": name, "bytes": BYTES, "blake3": ""}],
         "size": [64, 36], "samples": 4, "effects": ["thermal"], "trace": key.trace, "shared": 1,
         "exposure": 0.0,
@@ -246,12 +246,12 @@ fn what_is_learnt_while_rendering_mends_the_estimate() {
     let effects = ["thermal".to_owned()];
     assert!(
         !costs
-            .estimate(&effects, shot_folder.keys.picture())
+            .estimate(&effects, shot_folder.keys.resolution())
             .measured
     );
     let record = record(1, &shot_folder.keys.frame(1), "x.png", 5.0);
     costs.learn(&serde_json::from_value(record).unwrap());
-    let seconds = costs.seconds(&effects, shot_folder.keys.picture());
+    let seconds = costs.seconds(&effects, shot_folder.keys.resolution());
     assert!((seconds - 5.0).abs() < 1e-9, "{seconds}");
 }
 

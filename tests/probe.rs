@@ -7,6 +7,7 @@
 use std::path::{Path, PathBuf};
 
 use rayon::prelude::*;
+use restframe::frame::Frame;
 use restframe::probe::{Probe, ProbeHit, probe};
 use restframe::render::Prepared;
 use restframe::render::View;
@@ -115,14 +116,11 @@ fn answer(prepared: &Prepared, frame: u32, pixel: [u32; 2]) -> (Probe, [f64; 3])
 /// Probes, each with XYZ of the same ray as images have it.
 fn answers(prepared: &Prepared, frame: u32, pixels: &[[u32; 2]]) -> Vec<(Probe, [f64; 3])> {
     let shot = &prepared.shot;
-    let scene = Scene::resolve(shot, &prepared.library, frame, None).unwrap();
+    let values = Frame::new(shot, frame).unwrap();
+    let scene = Scene::resolve(&values, &prepared.library, None).unwrap();
     let stage = build_aggregate(&scene.geometry, None);
-    let view = View::new(shot, frame, &shot.effects, &scene, &stage).unwrap();
-    let stops = prepared
-        .exposure()
-        .unwrap()
-        .0
-        .stops(frame, shot.shot.frames);
+    let view = View::new(&values, &shot.effects, &scene, &stage);
+    let stops = prepared.exposure().unwrap().0.stops(&values);
     let answer = |&pixel: &[u32; 2]| {
         let point = [0, 1].map(|i| (f64::from(pixel[i]) + 0.5) / f64::from(shot.image.size[i]));
         let mut trees = ShadeTrees::default();
@@ -132,7 +130,7 @@ fn answers(prepared: &Prepared, frame: u32, pixels: &[[u32; 2]]) -> Vec<(Probe, 
         let imaged = view
             .shader()
             .xyz(&trees, trees.roots[0], &mut ShadeScratch::default());
-        (probe(shot, frame, pixel, &view, &scene, stops), imaged)
+        (probe(&values, pixel, &view, &scene, stops), imaged)
     };
     pixels.iter().map(answer).collect()
 }

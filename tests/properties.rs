@@ -7,11 +7,11 @@
 
 use glam::DVec3;
 use proptest::prelude::*;
+use restframe::frame::Splice;
 use restframe::relativity::{
     Boost, Celerity, Event, FourVector, Transform, Worldline, light_arriving,
 };
-use restframe::render::rows;
-use restframe::shot::{Ease, Filter, Splice, SpliceEffects, Track};
+use restframe::shot::{Ease, Effects, Filter, Track};
 use restframe::spectrum::{Beyond, Cardinal, planck};
 use restframe::trace::Samples;
 
@@ -477,7 +477,7 @@ proptest! {
         cut in prop_oneof![0.0..=1.0_f64, (0_u32..=64).prop_map(|n| f64::from(n) / 64.0)],
         height in 1_u32..5000,
     ) {
-        let rows_of = |rows_: [f64; 2]| rows(&Splice { rows: rows_, effects: SpliceEffects::default() }, height);
+        let rows_of = |rows_: [f64; 2]| Splice { rows: rows_, effects: Effects::default() }.rows_of(height);
         let (upper, lower) = (rows_of([0.0, cut]), rows_of([cut, 1.0]));
         prop_assert_eq!((upper.start, upper.end, lower.end), (0, lower.start, height));
     }

@@ -1,7 +1,7 @@
 //! The short cut agrees with the long way: XYZ by tables and kernels against the sum over the
 //! spectral radiance of the same ray.
 use restframe::accel::Hit;
-use restframe::plan;
+use restframe::frame::{Frame, Sensor};
 use restframe::scene::{Library, Scene};
 use restframe::shade::{Settings, ShadeScratch, Shader};
 use restframe::shot::{self, SensorColor, Shot, Spectra};
@@ -60,16 +60,16 @@ fn shot(emissivity: &str) -> (Shot, Scene) {
     let text = SHOT.replace("EMISSIVITY", emissivity);
     let shot = shot::parse(&text, &folder.join("shading.toml")).unwrap();
     let library = Library::load(&shot).unwrap();
-    let scene = Scene::resolve(&shot, &library, 1, None).unwrap();
+    let scene = Scene::resolve(&Frame::new(&shot, 1).unwrap(), &library, None).unwrap();
     (shot, scene)
 }
 
 fn worst(shot: &Shot, scene: &Scene) -> f64 {
-    let called = plan::called(shot, 1, &shot.effects).unwrap();
+    let called = Frame::new(shot, 1).unwrap().active_effects(&shot.effects);
     let settings = Settings {
         called: &called,
         accuracy: &shot.accuracy,
-        sensor: &shot.sensor,
+        sensor: &Sensor::new(&shot.sensor),
         reach: 175.0,
         lamp_reach: 350.0,
     };

@@ -2,6 +2,7 @@
 //! with their number. The test reads the greatest memory of its process and so runs in one of its own:
 //! this binary once more.
 
+use restframe::frame::Frame;
 use restframe::render::Prepared;
 use restframe::render::{Member, Options, View, Watch, film_bytes, render_together};
 use restframe::scene::Scene;
@@ -44,13 +45,12 @@ fn prepared(text: &str) -> Prepared {
 
 /// Greatest memory of rendering so many images at once, bytes (proc(5): `clear_refs`, `VmHWM`).
 fn peak(count: usize, prepared: &Prepared, options: &Options) -> u64 {
-    let scene = Scene::resolve(&prepared.shot, &prepared.library, 1, None).unwrap();
+    let values = Frame::new(&prepared.shot, 1).unwrap();
+    let scene = Scene::resolve(&values, &prepared.library, None).unwrap();
     let stage = build_aggregate(&scene.geometry, None);
-    let member = Member {
-        shot: &prepared.shot,
-        frame: 1,
-        scene: &scene,
-    };
+    let frame = &values;
+    let scene = &scene;
+    let member = Member { frame, scene };
     let stop = &AtomicBool::new(false);
     let watch = Watch {
         done: &|_| (),
@@ -74,10 +74,15 @@ fn peak(count: usize, prepared: &Prepared, options: &Options) -> u64 {
 
 /// Bytes of the shader of an image.
 fn shader(prepared: &Prepared) -> u64 {
-    let scene = Scene::resolve(&prepared.shot, &prepared.library, 1, None).unwrap();
+    let scene = Scene::resolve(
+        &Frame::new(&prepared.shot, 1).unwrap(),
+        &prepared.library,
+        None,
+    )
+    .unwrap();
     let stage = build_aggregate(&scene.geometry, None);
     let shot = &prepared.shot;
-    let view = View::new(shot, 1, &shot.effects, &scene, &stage).unwrap();
+    let view = View::new(&Frame::new(shot, 1).unwrap(), &shot.effects, &scene, &stage);
     view.shader().bytes() as u64
 }
 

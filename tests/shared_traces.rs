@@ -5,8 +5,9 @@ mod watched;
 
 use restframe::accel::Aggregate;
 use restframe::film::Film;
+use restframe::frame::Frame;
 use restframe::render::Prepared;
-use restframe::render::{Member, Options, Together, TogetherError, Watch, render, render_together};
+use restframe::render::{Member, Options, Stopped, Together, Watch, render, render_together};
 use restframe::scene::Scene;
 use restframe::shot::Layer;
 use restframe::trace::build_aggregate;
@@ -118,16 +119,34 @@ fn prepared(changes: &[Changes<'_>]) -> Prepared {
 
 /// Frame 1 of a shot, and its bodies.
 fn scene(prepared: &Prepared) -> (Scene, Aggregate) {
-    let scene = Scene::resolve(&prepared.shot, &prepared.library, 1, None).unwrap();
+    let scene = Scene::resolve(
+        &Frame::new(&prepared.shot, 1).unwrap(),
+        &prepared.library,
+        None,
+    )
+    .unwrap();
     let stage = build_aggregate(&scene.geometry, None);
     (scene, stage)
+}
+
+/// Frame 1 of a shot, whose scene stands in for its own. The frame outlives its member, and so is
+/// left to the end of the process.
+fn member<'a>(prepared: &'a Prepared, scene: &'a Scene) -> Member<'a> {
+    let frame = Box::leak(Box::new(Frame::new(&prepared.shot, 1).unwrap()));
+    Member { frame, scene }
 }
 
 impl Image {
     fn new(changes: &[Changes<'_>], options: &Options) -> Self {
         let prepared = prepared(changes);
         let (scene, stage) = scene(&prepared);
-        let alone = render(&prepared.shot, 1, &scene, &stage, options, &|_| ()).unwrap();
+        let alone = render(
+            &Frame::new(&prepared.shot, 1).unwrap(),
+            &scene,
+            &stage,
+            options,
+            &|_| (),
+        );
         Self {
             prepared,
             scene,
@@ -136,11 +155,7 @@ impl Image {
     }
 
     fn member(&self) -> Member<'_> {
-        Member {
-            shot: &self.prepared.shot,
-            frame: 1,
-            scene: &self.scene,
-        }
+        member(&self.prepared, &self.scene)
     }
 }
 
@@ -164,7 +179,7 @@ fn together(
     members: &[Member<'_>],
     stage: &Aggregate,
     options: &Options,
-) -> Result<Together, TogetherError> {
+) -> Result<Together, Stopped> {
     let pool = rayon::ThreadPoolBuilder::new()
         .num_threads(threads)
         .build()

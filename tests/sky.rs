@@ -10,7 +10,7 @@ mod stars;
 use ::image::{DynamicImage, Rgb, Rgb32FImage};
 use glam::DVec3;
 use restframe::film::Film;
-use restframe::plan;
+use restframe::frame::{Frame, Sensor};
 use restframe::probe::{Probe, probe};
 use restframe::render::Prepared;
 use restframe::render::{Options, View, render};
@@ -61,22 +61,24 @@ impl Folder {
     fn sees(&self, rest: &str) -> (Probe, [f64; 3]) {
         let prepared = self.shot(1, rest).unwrap_or_else(|m| panic!("{m}"));
         let shot = &prepared.shot;
-        let scene = Scene::resolve(shot, &prepared.library, 1, None).unwrap();
+        let frame = Frame::new(shot, 1).unwrap();
+        let scene = Scene::resolve(&frame, &prepared.library, None).unwrap();
         let stage = build_aggregate(&scene.geometry, None);
-        let view = View::new(shot, 1, &shot.effects, &scene, &stage).unwrap();
+        let view = View::new(&frame, &shot.effects, &scene, &stage);
         let mut trees = ShadeTrees::default();
         let direction = scene.camera.looks_along([0.5, 0.5]).unwrap();
         view.tracer()
             .trace(&[direction], &mut Scratch::default(), &mut trees);
         let shader = view.shader();
         let imaged = shader.xyz(&trees, trees.roots[0], &mut ShadeScratch::default());
-        (probe(shot, 1, [0, 0], &view, &scene, 0.0), imaged)
+        (probe(&frame, [0, 0], &view, &scene, 0.0), imaged)
     }
 
     /// An image of `size` × `size` pixels, one sample each.
     fn film(&self, size: u32, rest: &str) -> Film {
         let prepared = self.shot(size, rest).unwrap_or_else(|m| panic!("{m}"));
-        let scene = Scene::resolve(&prepared.shot, &prepared.library, 1, None).unwrap();
+        let frame = Frame::new(&prepared.shot, 1).unwrap();
+        let scene = Scene::resolve(&frame, &prepared.library, None).unwrap();
         let stage = build_aggregate(&scene.geometry, None);
         let options = Options {
             width: size,
@@ -84,7 +86,7 @@ impl Folder {
             samples: 1,
             layers: Vec::new(),
         };
-        render(&prepared.shot, 1, &scene, &stage, &options, &|_| ()).unwrap()
+        render(&frame, &scene, &stage, &options, &|_| ())
     }
 }
 
@@ -105,12 +107,12 @@ fn moving(beta: f64, yaw: f64, background: &str) -> String {
 /// A shader of a shot's sky for any Doppler factor.
 fn shader(prepared: &Prepared) -> Shader {
     let shot = &prepared.shot;
-    let scene = Scene::resolve(shot, &prepared.library, 1, None).unwrap();
-    let called = plan::called(shot, 1, &shot.effects).unwrap();
+    let scene = Scene::resolve(&Frame::new(shot, 1).unwrap(), &prepared.library, None).unwrap();
+    let called = Frame::new(shot, 1).unwrap().active_effects(&shot.effects);
     let settings = Settings {
         called: &called,
         accuracy: &shot.accuracy,
-        sensor: &shot.sensor,
+        sensor: &Sensor::new(&shot.sensor),
         reach: 175.0,
         lamp_reach: 1.0,
     };

@@ -5,6 +5,7 @@ use crate::hard_cases::eye::{Eye, sphere, triangles};
 use crate::hard_cases::scene::Set;
 use glam::DVec3;
 use restframe::accel::Aggregate;
+use restframe::frame::Frame;
 use restframe::model::Mesh;
 use restframe::model::{Model, load};
 use restframe::render::View;
@@ -312,7 +313,12 @@ fn displaced(levels: &[u32]) -> Vec<Displacement> {
     };
     let finest = of(8);
     let view = |of: &(Scene, Aggregate), look: &dyn Fn(&View<'_>) -> Displacement| {
-        look(&View::new(shot, 1, &shot.effects, &of.0, &of.1).unwrap())
+        look(&View::new(
+            &Frame::new(shot, 1).unwrap(),
+            &shot.effects,
+            &of.0,
+            &of.1,
+        ))
     };
     levels
         .iter()

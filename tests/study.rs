@@ -1,5 +1,6 @@
 //! `restframe study`: its figures against renders made here, and what must hold in every report.
 use crate::common::desk::{Desk, Outcome};
+use restframe::frame::Frame;
 use restframe::image::compare::relative_rmse;
 use restframe::render::Prepared;
 use restframe::render::{Options, render};
@@ -95,10 +96,17 @@ fn settings(sweep: &Sweep) -> Vec<&str> {
 fn film(prepared: &Prepared, accuracy: Accuracy) -> Vec<[f32; 3]> {
     let mut shot = prepared.shot.clone();
     shot.accuracy = accuracy;
-    let scene = Scene::resolve(&shot, &prepared.library, 1, None).expect("it resolves");
+    let scene = Scene::resolve(&Frame::new(&shot, 1).unwrap(), &prepared.library, None)
+        .expect("it resolves");
     let stage = build_aggregate(&scene.geometry, None);
-    let film = render(&shot, 1, &scene, &stage, &OPTIONS, &|_| ());
-    film.expect("it renders").xyz
+    let film = render(
+        &Frame::new(&shot, 1).unwrap(),
+        &scene,
+        &stage,
+        &OPTIONS,
+        &|_| (),
+    );
+    film.xyz
 }
 
 #[test]

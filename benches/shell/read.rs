@@ -1,6 +1,7 @@
 //! Shots of benches, read from text.
 
 use restframe::accel::Aggregate;
+use restframe::frame::Frame;
 use restframe::render::Prepared;
 use restframe::scene::Scene;
 use restframe::trace::build_aggregate;
@@ -11,7 +12,12 @@ pub(crate) fn read(text: &str) -> (Prepared, Scene, Aggregate) {
     let path = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(format!("bench-{}.toml", id(text)));
     std::fs::write(&path, text).expect("the target folder can be written to");
     let prepared = Prepared::read(&path).expect("the shot has no mistake");
-    let scene = Scene::resolve(&prepared.shot, &prepared.library, 1, None).expect("it resolves");
+    let scene = Scene::resolve(
+        &Frame::new(&prepared.shot, 1).expect("it moves"),
+        &prepared.library,
+        None,
+    )
+    .expect("it resolves");
     let stage = build_aggregate(&scene.geometry, None);
     (prepared, scene, stage)
 }

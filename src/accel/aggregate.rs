@@ -185,7 +185,7 @@ mod tests {
     fn filtered_instances_are_passed_through_by_the_rays_that_are_told_so() {
         let (bodies, mut rays) = (three_squares(), rays());
         rays.reaches.fill(f64::INFINITY);
-        let accepts = |ray: usize, instance: u32| ray % 2 == 0 || instance == 2;
+        let accepts = |ray: usize, instance: u32| ray.is_multiple_of(2) || instance == 2;
         let (mut hits, mut blocked) = (Vec::new(), Vec::new());
         bodies.intersect(1, &rays, accepts, &mut hits);
         for (ray, hit) in hits.iter().enumerate().take(24) {
@@ -193,7 +193,7 @@ mod tests {
             let hit = hit.expect("the squares cover these rays");
             assert!((hit.t - distance).abs() < 1e-14 && hit.instance == instance);
         }
-        bodies.occluded(1, &rays, |ray, _| ray % 2 == 0, &mut blocked);
+        bodies.occluded(1, &rays, |ray, _| ray.is_multiple_of(2), &mut blocked);
         assert!((0..24).all(|ray| blocked[ray] == (ray % 2 == 0)));
     }
 }

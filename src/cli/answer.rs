@@ -1,12 +1,12 @@
-//! Long answers on standard output, written as they are made.
+//! Long results on standard output, written piece by piece.
 
 use super::{Failed, failed};
 use std::io::{self, BufWriter, ErrorKind, StdoutLock, Write};
 
-/// Standard output, until nobody reads it any more.
+/// Standard output, until its reader is gone.
 pub(super) struct Answer(BufWriter<StdoutLock<'static>>);
 
-/// Whether somebody reads.
+/// Whether anybody reads the output.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Reader {
     There,
@@ -18,17 +18,17 @@ impl Answer {
         Self(BufWriter::with_capacity(1 << 16, io::stdout().lock()))
     }
 
-    /// Writes some of it; a reader who has gone away is no failure.
+    /// Writes text. A closed pipe is not a failure.
     pub(super) fn write(&mut self, text: &str) -> Result<Reader, Failed> {
         told(self.0.write_all(text.as_bytes()))
     }
 
-    /// Writes a value as JSON, part by part as it is asked for them.
+    /// Writes a value as JSON, serialized piece by piece.
     pub(super) fn json(&mut self, value: &impl serde::Serialize) -> Result<Reader, Failed> {
         told(serde_json::to_writer(&mut self.0, value).map_err(io::Error::from))
     }
 
-    /// Writes what is still held.
+    /// Writes the rest of the buffer.
     pub(super) fn end(&mut self) -> Result<(), Failed> {
         told(self.0.flush()).map(|_| ())
     }

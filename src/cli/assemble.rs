@@ -1,4 +1,4 @@
-//! `restframe assemble`.
+//! `restframe assemble`: sheets, animations, video and page of finished frames.
 
 use super::open::{Unopened, open, worse};
 use super::{Failed, FinishedArguments, failed, print, print_json, say};
@@ -6,9 +6,9 @@ use crate::queue::Stop;
 use crate::sequence::{Assembled, assemble_all};
 use serde_json::json;
 
-/// Assembles every shot; one that fails does not keep the others from it.
+/// Assembles every shot. If one fails, the others are still assembled.
 pub(super) fn run(arguments: &FinishedArguments) -> Result<(), Failed> {
-    // Asked to stop, there is nothing more to say.
+    // When the user asks to stop, no further message is needed.
     let stop = Stop::listen(|_| {})
         .map_err(|error| failed(&format!("cannot listen to signals: {error}")))?;
     let mut worst = None;

@@ -1,4 +1,4 @@
-//! `restframe check`.
+//! `restframe check`: all mistakes of shots, without rendering.
 
 use super::{Failed, MISTAKE, mistaken, print, print_json, say, warn};
 use crate::render::Prepared;
@@ -6,7 +6,7 @@ use crate::sequence;
 use serde_json::json;
 use std::path::PathBuf;
 
-/// Reads every shot and all it names, and resolves each frame.
+/// Reads every shot with its files, and resolves each frame.
 pub(super) fn run(shots: &[PathBuf], as_json: bool) -> Result<(), Failed> {
     let mut wrong = false;
     let mut reports = Vec::new();
@@ -42,7 +42,7 @@ pub(super) fn run(shots: &[PathBuf], as_json: bool) -> Result<(), Failed> {
     if wrong { Err(Failed(MISTAKE)) } else { Ok(()) }
 }
 
-/// What cannot be assembled of its frames.
+/// The part of `[sequence]` that cannot be made from the shot's frames.
 fn foreseen(prepared: &Prepared) -> Option<String> {
     let shot = &prepared.shot;
     let why = sequence::foreseen(shot, shot.image.size)?;

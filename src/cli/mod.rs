@@ -164,7 +164,7 @@ impl PictureArguments {
     }
 }
 
-/// Every frame, where no list is given.
+/// The listed frames, or every frame.
 fn frames(list: Option<&FrameList>) -> FrameList {
     list.cloned().unwrap_or_else(FrameList::all)
 }
@@ -285,14 +285,14 @@ fn mistaken(mistakes: &Mistakes) -> Failed {
     Failed(MISTAKE)
 }
 
-/// Says what the shot's files ask for and the picture will not show.
+/// Prints warnings: content of the shot's files that the image will not show.
 fn warn(prepared: &Prepared) {
     for warning in prepared.warnings() {
         say(&format!("warning: {warning}"));
     }
 }
 
-/// So many threads; 0 for one a processor.
+/// A pool of this many threads; 0 for one per processor.
 fn pool(threads: u16) -> Result<rayon::ThreadPool, Failed> {
     rayon::ThreadPoolBuilder::new()
         .num_threads(threads.into())
@@ -300,7 +300,8 @@ fn pool(threads: u16) -> Result<rayon::ThreadPool, Failed> {
         .map_err(|error| failed(&error.to_string()))
 }
 
-/// A line on standard error; trouble with it is passed over.
+/// Prints a line to standard error. A failure to do so is ignored, since there is nowhere to report
+/// it.
 fn say(line: &str) {
     let _unheard = writeln!(io::stderr().lock(), "{line}");
 }

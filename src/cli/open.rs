@@ -1,4 +1,4 @@
-//! Folders of shots opened for a command, and failures of several shots.
+//! Opening of shots' folders for a command, and the combined exit status of several shots.
 
 use super::{Failed, FinishedArguments, MISTAKE, failed, mistaken, misused};
 use crate::shot::{self, Mistakes};
@@ -6,20 +6,20 @@ use crate::store::{FolderError, ShotFolder};
 use serde_json::{Value, json};
 use std::path::Path;
 
-/// A shot whose frames cannot be looked at; why, has been said.
+/// A shot whose folder could not be opened. The reason has been printed.
 pub(super) struct Unopened {
     pub(super) failed: Failed,
     why: Why,
 }
 
-/// As it stands in an answer.
+/// The reason, for the JSON output.
 enum Why {
     Mistakes(Value),
     Words(String),
 }
 
 impl Unopened {
-    /// Says why.
+    /// Prints the reason.
     pub(super) fn say(why: &str) -> Self {
         Self {
             failed: failed(why),
@@ -34,7 +34,7 @@ impl Unopened {
         }
     }
 
-    /// What stands in the answer for the shot.
+    /// The entry of the shot in the JSON output.
     pub(super) fn as_json(&self, shot: &Path) -> Value {
         let shot = shot.to_string_lossy();
         match &self.why {
@@ -44,7 +44,7 @@ impl Unopened {
     }
 }
 
-/// The finished frames of a shot.
+/// Opens the folder of a shot's finished frames.
 pub(super) fn open(path: &Path, arguments: &FinishedArguments) -> Result<ShotFolder, Unopened> {
     let shot = shot::load(path).map_err(|m| Unopened::mistaken(&m))?;
     let request = arguments.pictures.request();
@@ -59,7 +59,7 @@ pub(super) fn open(path: &Path, arguments: &FinishedArguments) -> Result<ShotFol
     })
 }
 
-/// Of two failures the one that no further try will help.
+/// The worse of two failures: a mistake, which no retry will help.
 pub(super) fn worse(old: Option<Failed>, new: Failed) -> Option<Failed> {
     Some(match old {
         Some(Failed(MISTAKE)) => Failed(MISTAKE),

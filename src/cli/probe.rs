@@ -1,22 +1,23 @@
-//! `restframe probe`.
+//! `restframe probe`: what the center of one pixel sees.
 
 use super::{Failed, ProbeArguments, failed, mistaken, misused, print, print_json};
+use crate::frame::Frame;
 use crate::plot::{Page, lay_out, svg};
-use crate::probe::{Probe, ProbeNode, effects_at, plot, probe, wide_band};
-use crate::render::{Prepared, View, motion_mistake};
+use crate::probe::{Probe, ProbeNode, plot, probe, wide_band};
+use crate::render::{Prepared, View};
 use crate::scene::Scene;
 use crate::shot::SensorColor;
 use crate::store::{Names, write_atomically};
 use crate::trace::build_aggregate;
 use std::path::Path;
 
-/// The page of a plot: two panels side by side, that fit into a page of text.
+/// The page of a plot: two panels side by side, fit for a page of text.
 const PAGE: Page = Page {
     size: [1120.0, 460.0],
     font: 14.0,
 };
 
-/// Answers for the centre of one pixel, under the effects of the splice that it lies in.
+/// Probes the center of one pixel, under the effects of the splice that contains it.
 pub(super) fn run(arguments: &ProbeArguments) -> Result<(), Failed> {
     if arguments
         .plot
@@ -44,17 +45,17 @@ pub(super) fn run(arguments: &ProbeArguments) -> Result<(), Failed> {
         )));
     }
     let (exposing, _) = prepared.exposure().map_err(|m| mistaken(&m))?;
-    let scene = Scene::resolve(shot, &prepared.library, frame, None).map_err(|m| mistaken(&m))?;
+    let frame = &Frame::new(shot, frame).map_err(|m| mistaken(&m))?;
+    let scene = Scene::resolve(frame, &prepared.library, None).map_err(|m| mistaken(&m))?;
     let stage = build_aggregate(&scene.geometry, None);
-    let effects = effects_at(shot, pixel[1]);
-    let view = View::new(shot, frame, &effects, &scene, &stage)
-        .map_err(|error| mistaken(&motion_mistake(shot, &error)))?;
-    let stops = exposing.stops(frame, shot.shot.frames);
-    let answer = probe(shot, frame, pixel, &view, &scene, stops);
+    let effects = frame.effects_at(pixel[1]);
+    let view = View::new(frame, &effects, &scene, &stage);
+    let stops = exposing.stops(frame);
+    let answer = probe(frame, pixel, &view, &scene, stops);
     if let Some(file) = &arguments.plot {
         let stem = || Names::new(shot).stem;
         let title = shot.shot.title.clone().unwrap_or_else(stem);
-        let wide = wide_band(shot, &answer, &view, &scene);
+        let wide = wide_band(frame, &answer, &view, &scene);
         let plot = plot(&title, shot.sensor.window, &answer, &wide);
         let text = svg(&lay_out(&plot, PAGE));
         write_atomically(file, text.as_bytes()).map_err(|error| failed(&error.to_string()))?;
@@ -66,7 +67,7 @@ pub(super) fn run(arguments: &ProbeArguments) -> Result<(), Failed> {
     }
 }
 
-/// Whether two paths lead to one file that exists.
+/// Whether two paths lead to the same existing file.
 fn same(one: &Path, other: &Path) -> bool {
     matches!((one.canonicalize(), other.canonicalize()), (Ok(one), Ok(other)) if one == other)
 }
@@ -155,7 +156,7 @@ fn link(index: usize, node: &ProbeNode) -> String {
     format!("  {index:>3}  {what}, {how}")
 }
 
-/// A wavelength, nm: in powers of ten from far outside the visible.
+/// A wavelength in nm, with an exponent if far from the visible.
 fn length(nm: f64) -> String {
     if (10.0..1e5).contains(&nm) {
         format!("{nm:.1} nm")

@@ -1,4 +1,4 @@
-//! `restframe render`.
+//! `restframe render`: frames that are missing or out of date, then sequences.
 
 use super::{
     FAILURE, Failed, ProgressMode, RenderArguments, failed, frames, mistaken, misused, pool,
@@ -9,7 +9,7 @@ use crate::sequence::{finish_shot, foreseen};
 use crate::shot::{self, Shot};
 use std::sync::Arc;
 
-/// Renders, and tells how it ended, also when it was asked to stop.
+/// Renders, and reports how the run ended, also if it was stopped.
 pub(super) fn run(arguments: &RenderArguments) -> Result<(), Failed> {
     let results = match (arguments.json, arguments.progress) {
         (true, ProgressMode::OpenJd) => {
@@ -36,8 +36,8 @@ pub(super) fn run(arguments: &RenderArguments) -> Result<(), Failed> {
     }
 }
 
-/// Reads all shots before the first is rendered, so that a mistake in the last one shows at once;
-/// assembles each shot's frames as soon as they are there.
+/// Reads all shots before the first is rendered, so that a mistake in the last one is reported at
+/// once. Assembles each shot as soon as its frames are there.
 fn render(arguments: &RenderArguments, progress: &Progress<'_>, stop: &Stop) -> Result<(), Failed> {
     let settings = Settings {
         request: arguments.pictures.request(),
@@ -72,7 +72,7 @@ fn render(arguments: &RenderArguments, progress: &Progress<'_>, stop: &Stop) -> 
     }
 }
 
-/// The shots that can be read, and the failure if some cannot; why, is told.
+/// The shots that can be read, and the failure if some cannot. Reasons are printed.
 fn load(arguments: &RenderArguments) -> (Vec<Shot>, Option<Failed>) {
     let mut wrong = None;
     let shots = arguments.shots.iter().filter_map(|path| {
@@ -83,7 +83,7 @@ fn load(arguments: &RenderArguments) -> (Vec<Shot>, Option<Failed>) {
     (shots.collect(), wrong)
 }
 
-/// The jobs of the shots. Every mistake of every shot is told.
+/// The jobs of the shots. Every mistake of every shot is printed.
 fn open(
     shots: &[Shot],
     settings: &Settings<'_>,
@@ -92,7 +92,7 @@ fn open(
     let list = JobList::open(shots, settings);
     let mut list = list.map_err(|error| misused(&error.to_string()))?;
     for job in &list.jobs {
-        let (shot, size) = (job.folder.shot(), job.folder.keys.picture().size);
+        let (shot, size) = (job.folder.shot(), job.folder.keys.resolution().size);
         if let Some(why) = foreseen(shot, size) {
             let path = shot.path.display();
             settings.progress.warn(&format!("{path}: {why}"));
@@ -105,7 +105,7 @@ fn open(
     wrong.map_or(Ok(list), Err)
 }
 
-/// Which frames are not there.
+/// The frames that are missing, in words.
 fn missing(jobs: &[Job]) -> Option<String> {
     let lists = jobs.iter().map(|job| (job, job.missing()));
     let lists: Vec<_> = lists.filter(|(_, frames)| !frames.is_empty()).collect();

@@ -1,16 +1,16 @@
-//! `restframe study`.
+//! `restframe study`: time and error of the accuracy settings.
 
 use super::{Failed, StudyArguments, failed, mistaken, misused, pool, print, say, warn};
-use crate::plan;
-use crate::render::{Options, Prepared, motion_mistake};
+use crate::frame::Frames;
+use crate::render::{Options, Prepared};
 use crate::store::{Names, Request, write_atomically};
 use crate::study::{self, StudyError, report};
 use std::path::Path;
 
-/// Most pixels of an image studied, unless asked for: one setting of most knobs takes a second or
-/// less.
+/// Default for the largest number of pixels of the image: one setting of most knobs then takes a
+/// second or less.
 const PIXELS: f64 = 640.0 * 360.0;
-/// Most samples a pixel, unless asked for.
+/// Default for the largest number of samples per pixel.
 const SAMPLES: u32 = 4;
 
 /// Studies one image and writes the report.
@@ -66,7 +66,7 @@ fn write(file: &Path, text: &str) -> Result<(), Failed> {
     write_atomically(file, text.as_bytes()).map_err(|error| failed(&error.to_string()))
 }
 
-/// The frame asked for, or the last of those that call for most effects.
+/// The frame asked for, or the last of those with the most effects.
 fn frame(prepared: &Prepared, asked: Option<u32>) -> Result<u32, Failed> {
     let shot = &prepared.shot;
     let frames = shot.shot.frames;
@@ -80,15 +80,16 @@ fn frame(prepared: &Prepared, asked: Option<u32>) -> Result<u32, Failed> {
         };
     }
     let mut most = (0, 1);
-    for frame in 1..=frames {
-        let called = plan::called(shot, frame, &shot.effects)
-            .map_err(|error| mistaken(&motion_mistake(shot, &error)))?;
-        most = most.max((called.count(), frame));
+    let mut all = Frames::new(shot);
+    for number in 1..=frames {
+        let frame = all.at(number).map_err(|m| mistaken(&m))?;
+        let called = frame.active_effects(&frame.effects);
+        most = most.max((called.count(), number));
     }
     Ok(most.1)
 }
 
-/// Size and samples asked for, or such as take not too long.
+/// Size and samples asked for, or such that a study does not take too long.
 fn size(prepared: &Prepared, arguments: &StudyArguments) -> Result<Options, Failed> {
     let shot = &prepared.shot;
     let [width, height] = shot.image.size.map(f64::from);

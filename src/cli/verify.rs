@@ -1,4 +1,4 @@
-//! `restframe verify`.
+//! `restframe verify`: checks finished frames.
 
 use super::answer::Answer;
 use super::open::{open, worse};
@@ -9,7 +9,7 @@ use serde::{Serialize, Serializer};
 use std::borrow::Cow;
 use std::path::Path;
 
-/// Looks at the frames of every shot; one with a mistake does not keep the others from it.
+/// Checks the frames of every shot. If one has a mistake, the others are still checked.
 pub(super) fn run(arguments: &FinishedArguments) -> Result<(), Failed> {
     let mut worst = None;
     let mut list = arguments.json.then(List::new);
@@ -43,7 +43,7 @@ pub(super) fn run(arguments: &FinishedArguments) -> Result<(), Failed> {
     worst.map_or(Ok(()), Err)
 }
 
-/// The answer as JSON, shot by shot.
+/// The result as JSON, written shot by shot.
 struct List {
     answer: Answer,
     before: &'static str,
@@ -68,7 +68,7 @@ impl List {
     }
 }
 
-/// What is told of a shot.
+/// The entry of a shot in the JSON output.
 #[derive(Serialize)]
 struct Answered<'a> {
     shot: Cow<'a, str>,
@@ -78,7 +78,7 @@ struct Answered<'a> {
     findings: Each<'a>,
 }
 
-/// Findings, each frame of a run by itself.
+/// Findings, with each frame of a range listed by itself.
 struct Each<'a>(&'a ShotFolder, &'a [Finding]);
 
 impl Serialize for Each<'_> {

@@ -9,26 +9,26 @@
 //! rounded to 1, 2 or 5. Curves are read as their author wrote them, however `accuracy.spectra` holds
 //! them for the picture.
 
+use super::look;
 use super::plot::{SPACING, SURFACE, THERMAL_LIGHT, UNIT, curve, digits, peak, visible};
-use super::{effects_at, look};
 use crate::accel::Aggregate;
 use crate::color::cie;
 use crate::film::Channels;
-use crate::plan::MotionError;
+use crate::frame::{Frame, Sensor};
 use crate::plot::{Axis, Color, LEAST_INSET, Panel, Plot, Scale, Stroke, round_up};
 use crate::render::{self, Member, View};
 use crate::scene::{Scene, Thermal};
 use crate::shade::Radiance;
-use crate::shot::{Effects, Sensor, Shot};
+use crate::shot::Effects;
 use crate::trace::{Seen, ShadeTrees};
 
 /// Grey, so that it is told from the others without seeing colours.
 const SUM: Color = [165, 165, 165];
-/// Above the highest point of a curve.
+/// Room above the highest point of a curve.
 const HEADROOM: f64 = 1.03;
-/// From the window's ends to those of the axis.
+/// Ratio of the ends of the axis to those of the window.
 const BESIDE: f64 = 10.0;
-/// Most wavelengths of a curve: more than any picture has columns for it.
+/// Number of wavelengths of a curve at most: more than any image has columns for it.
 const MOST: f64 = 8192.0;
 
 /// What the insets of an image of `size` pixels show, in the order of the shot's; None where one is
@@ -38,41 +38,47 @@ pub fn insets(
     stage: &Aggregate,
     exposure: f64,
     size: [u32; 2],
-) -> Result<Vec<Option<Plot>>, MotionError> {
-    let Member { shot, frame, scene } = member;
+) -> Vec<Option<Plot>> {
+    let Member { frame, scene } = member;
     // Insets under the same effects are seen in one view.
     let mut views: Vec<(Effects, View<'_>)> = Vec::new();
     let mut plots = Vec::new();
-    for inset in &shot.inset {
+    for inset in frame.insets {
         let (_, [_, height]) = inset.place_in(size);
         if f64::from(height) < LEAST_INSET {
             plots.push(None);
             continue;
         }
-        let pixel = inset.pixel_of(shot.image.size);
-        let effects = effects_at(shot, pixel[1]);
+        let pixel = inset.pixel_of(frame.image.size);
+        let effects = frame.effects_at(pixel[1]);
         let known = views.iter().position(|(under, _)| *under == effects);
         let place = match known {
             Some(place) => place,
             None => {
-                let view = View::new(shot, frame, &effects, scene, stage)?;
+                let view = View::new(frame, &effects, scene, stage);
                 views.push((effects, view));
                 views.len() - 1
             }
         };
         let (_, view) = &views[place];
-        plots.push(Some(self::inset(shot, pixel, view, scene, exposure)));
+        plots.push(Some(self::inset(frame, pixel, view, scene, exposure)));
     }
-    Ok(plots)
+    plots
 }
 
-/// The plot of what the centre of `pixel`, which lies in the shot's image, sees in `view`. Exposure
+/// The plot of what the centre of `pixel`, which lies in the frame's image, sees in `view`. Exposure
 /// is in stops.
-pub fn inset(shot: &Shot, pixel: [u32; 2], view: &View<'_>, scene: &Scene, exposure: f64) -> Plot {
-    let band = band(shot.sensor.window);
+pub fn inset(
+    frame: &Frame<'_>,
+    pixel: [u32; 2],
+    view: &View<'_>,
+    scene: &Scene,
+    exposure: f64,
+) -> Plot {
+    let band = band(frame.sensor.window);
     let count = ((band[1] / band[0]).ln() / SPACING).ceil().min(MOST);
     let shader = view.shader_over(band, count as u32);
-    let (light, caption) = match look(shot, pixel, view, scene) {
+    let (light, caption) = match look(frame, pixel, view, scene) {
         Some((trees, _)) => (
             shader.radiance(&trees, trees.roots[0]),
             caption(&trees, view, scene),
@@ -80,12 +86,12 @@ pub fn inset(shot: &Shot, pixel: [u32; 2], view: &View<'_>, scene: &Scene, expos
         None => (Radiance::new(count as usize), "nothing is seen".to_owned()),
     };
     let sum = light.total();
-    let largest = (peak(&sum) * HEADROOM).max(white(shot, exposure));
+    let largest = (peak(&sum) * HEADROOM).max(white(frame, exposure));
     let nm = shader.wavelengths_nm();
     let line = |name: &str, color, width: f64, values| {
         curve(name, color, Stroke::Solid(width), &nm, values)
     };
-    // The sum is wide, pale and below, so that what makes it is seen on it.
+    // The sum is wide, pale and below, so that its parts are visible on it.
     let series = vec![
         line("sum", SUM, 6.5, sum),
         line("surface", SURFACE, 2.4, light.surface),
@@ -104,7 +110,7 @@ pub fn inset(shot: &Shot, pixel: [u32; 2], view: &View<'_>, scene: &Scene, expos
     }
 }
 
-/// Doppler factor and temperature of what is seen first.
+/// Doppler factor and temperature of the first surface.
 fn caption(trees: &ShadeTrees, view: &View<'_>, scene: &Scene) -> String {
     let root = trees.roots[0];
     let Some(node) = trees.nodes_of(root).first() else {
@@ -115,7 +121,7 @@ fn caption(trees: &ShadeTrees, view: &View<'_>, scene: &Scene) -> String {
         return format!("background, {doppler}");
     };
     let thermal = scene.materials[surface.material as usize].thermal.as_ref();
-    match thermal.filter(|_| view.called.thermal) {
+    match thermal.filter(|_| view.effects.thermal) {
         Some(Thermal { temperature_k, .. }) => {
             let decimals = usize::from(*temperature_k < 100.0);
             format!("{doppler}, T = {} K", digits(*temperature_k, decimals))
@@ -126,9 +132,9 @@ fn caption(trees: &ShadeTrees, view: &View<'_>, scene: &Scene) -> String {
 
 /// Spectral radiance of the even light that is just white in the picture, W·m⁻²·sr⁻¹·nm⁻¹; 0
 /// where nothing is.
-fn white(shot: &Shot, exposure: f64) -> f64 {
-    let Sensor { window, .. } = shot.sensor;
-    let of_one = match render::channels(shot) {
+fn white(frame: &Frame<'_>, exposure: f64) -> f64 {
+    let Sensor { window, .. } = frame.sensor;
+    let of_one = match render::channels(frame.sensor.color) {
         Channels::Xyz => {
             let inside = |nm| f64::from((window[0]..=window[1]).contains(&nm));
             cie::xyz_of(inside)[1]
@@ -139,9 +145,9 @@ fn white(shot: &Shot, exposure: f64) -> f64 {
     if white.is_finite() { white } else { 0.0 }
 }
 
-/// A decade to each side of a window, rounded inwards.
+/// A decade to each side of a window, rounded inward.
 fn band([from, to]: [f64; 2]) -> [f64; 2] {
-    // 1, 2 and 5 are their own inverses but for a power of ten.
+    // 1, 2 and 5 are their own inverses up to a power of ten.
     [round_up(from / BESIDE), 1.0 / round_up(1.0 / BESIDE / to)]
 }
 

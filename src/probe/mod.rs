@@ -1,4 +1,4 @@
-//! What the centre of one pixel sees: the event, the Doppler factor, the curve, the colour.
+//! What the center of one pixel sees: event, Doppler factor, spectrum, color.
 
 mod inset;
 mod plot;
@@ -7,65 +7,66 @@ pub use inset::{inset, insets};
 pub use plot::{WideBand, plot, wide_band};
 
 use crate::film::{Channels, SILENT};
+use crate::frame::Frame;
 use crate::relativity::Event;
 use crate::render::{self, Enough, LabPath, View, development};
 use crate::scene::{Lobe, Scene};
 use crate::shade::{Radiance, ShadeScratch};
-use crate::shot::{Effects, Shot, Spectra};
+use crate::shot::Spectra;
 use crate::trace::{Branch, Node, Scratch, Seen, ShadeTrees, Surface};
 use glam::DVec3;
 use serde::Serialize;
 
-/// The answer of `restframe probe`.
+/// Result of `restframe probe`.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Probe {
-    /// Number of the frame.
+    /// Frame number.
     pub frame: u32,
-    /// The pixel, from the upper left one, (0, 0).
+    /// Column and row of the pixel; (0, 0) is the upper left.
     pub pixel: [u32; 2],
-    /// Where the pixel looks: a unit vector in the camera's rest frame. None outside of a fisheye's
+    /// Direction of view, a unit vector in the camera's rest frame. None outside of a fisheye's
     /// circle, where nothing is seen and all light is 0. Not part of the JSON.
     #[serde(skip)]
     pub direction: Option<[f64; 3]>,
-    /// The first surface; None where the background is seen, or nothing.
+    /// The first surface; None if the background or nothing is seen.
     pub hit: Option<ProbeHit>,
     /// The sensor's wavelengths, nm, in the camera's rest frame.
     pub wavelengths: Vec<f64>,
-    /// Spectral radiance there, W·m⁻²·sr⁻¹·nm⁻¹.
+    /// Spectral radiance at these wavelengths, W·m⁻²·sr⁻¹·nm⁻¹.
     pub radiance: Vec<f64>,
-    /// CIE 1931 XYZ, cd/m², as the picture has them: 0 where the window leaves out the visible.
+    /// CIE 1931 XYZ, cd/m², as in the image: 0 if the window excludes the visible.
     pub xyz: [f64; 3],
-    /// Linear sRGB after exposure; under `sensor.color = "bands"` the three bands after exposure.
+    /// Linear sRGB after exposure; with `sensor.color = "bands"`, the three bands after exposure.
     pub rgb: [f64; 3],
-    /// Everything that adds to what is seen: the first surface, and what is seen in mirrors and
-    /// through glass, each after what it is seen in.
+    /// All nodes of the shade tree: the first surface, and those seen in mirrors and through glass,
+    /// each after the one in which it is seen.
     pub chain: Vec<ProbeNode>,
     /// Share of mirrored and refracted light that was not followed; the error is at most this times
-    /// what arrives there.
+    /// the light arriving there.
     pub cut: f64,
-    /// `effects.bounces` with which less than 0.5 % would be cut; None where that is so already, and
-    /// where it is too faint for any number of them.
+    /// `effects.bounces` with which less than 0.5 % would be cut; None if that is so already, and
+    /// if the light is too faint for any number.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub enough_bounces: Option<u32>,
-    /// The part of `radiance` that surfaces reflect or emit cold, and the background.
+    /// The part of `radiance` that surfaces reflect or emit without heat, and the background.
     pub surface: Vec<f64>,
-    /// Its thermal part.
+    /// The thermal part of `radiance`.
     pub thermal: Vec<f64>,
 }
 
 /// A node of the pixel's shade tree.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct ProbeNode {
-    /// Place in the chain of what it is seen in; None if the camera sees it directly.
+    /// Index in the chain of the node in which it is seen; None if the camera sees it directly.
     pub parent: Option<u32>,
-    /// What of that material passes its light on: "mirror" or "refraction".
+    /// The lobe of that node that passes the light on: "mirror" or "refraction".
     pub by: Option<&'static str>,
-    /// Share of its light that goes on: Fresnel's times the term's weight, 1 if seen directly.
+    /// Share of its light that is passed on: Fresnel's times the lobe's weight, 1 if seen directly.
     pub coefficient: f64,
     /// D from here to its parent, or to the camera.
     pub doppler: f64,
-    /// The surface, its `distance` that to its parent and its `doppler` that to the camera; None
-    /// if it is the background.
+    /// The surface, with the `distance` to its parent and the `doppler` to the camera; None for the
+    /// background.
     pub hit: Option<ProbeHit>,
 }
 
@@ -76,19 +77,19 @@ pub struct ProbeHit {
     pub model: String,
     /// Its material.
     pub material: String,
-    /// The worldline it rides on.
+    /// Its worldline.
     pub worldline: String,
     /// The emission event, in lab coordinates.
     pub event: ProbeEvent,
-    /// Lab length of the light path, metres.
+    /// Lab length of the light path, meters.
     pub distance: f64,
-    /// Unit normal towards the viewer, in the surface's rest frame.
+    /// Unit normal toward the viewer, in the surface's rest frame.
     pub normal: [f64; 3],
     /// D = ω_observed/ω_source.
     pub doppler: f64,
 }
 
-/// An event in the lab: metres of light travel, metres.
+/// An event in the lab; times in meters of light travel, positions in meters.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct ProbeEvent {
     /// Time.
@@ -97,20 +98,9 @@ pub struct ProbeEvent {
     pub x: [f64; 3],
 }
 
-/// The effects under which a pixel of this row is seen: those of the splice that it lies in.
-pub fn effects_at(shot: &Shot, row: u32) -> Effects {
-    let [_, height] = shot.image.size;
-    let mut splices = shot.splice.iter().rev();
-    let splice = splices.find(|splice| render::rows(splice, height).contains(&row));
-    splice.map_or(shot.effects, |splice| {
-        render::spliced(&shot.effects, splice)
-    })
-}
-
-/// Probes the centre of `pixel`, which must lie in the shot's image. `exposure` is in stops.
+/// Probes the centre of `pixel`, which must lie in the frame's image. `exposure` is in stops.
 pub fn probe(
-    shot: &Shot,
-    frame: u32,
+    frame: &Frame<'_>,
     pixel: [u32; 2],
     view: &View<'_>,
     scene: &Scene,
@@ -121,38 +111,40 @@ pub fn probe(
     let (mut chain, mut cut, mut direction) = (Vec::new(), 0.0, None);
     let mut enough = None;
     let (mut channels, mut xyz) = ([0.0; 3], [0.0; 3]);
-    if let Some((trees, towards)) = look(shot, pixel, view, scene) {
+    if let Some((trees, towards)) = look(frame, pixel, view, scene) {
         let root = trees.roots[0];
         chain = self::chain(view, scene, trees.nodes_of(root), towards);
         cut = root.cut;
         enough = enough_bounces(view, cut, towards);
-        light = if matches!(shot.accuracy.spectra, Spectra::Grid | Spectra::Rgb) {
+        light = if matches!(frame.accuracy.spectra, Spectra::Grid | Spectra::Rgb) {
             // The grid's own curves are made for sums: what bends is smoothed. Three numbers have
             // none.
-            view.curves(shot).radiance(&trees, root)
+            view.curves(frame).radiance(&trees, root)
         } else {
             shader.radiance(&trees, root)
         };
-        // As the picture has them, however spectra are held.
+        // As in the image, in whichever way spectra are represented.
         let mut scratch = ShadeScratch::default();
         channels = shader.xyz(&trees, root, &mut scratch);
-        xyz = match render::channels(shot) {
+        xyz = match render::channels(frame.sensor.color) {
             Channels::Xyz => channels,
-            Channels::Bands => view.eye(shot).xyz(&trees, root, &mut scratch),
+            Channels::Bands => view.eye(frame).xyz(&trees, root, &mut scratch),
         };
         direction = Some(towards);
     }
     let radiance = light.total();
     let gain = (exposure.exp2() / 100.0).min(f64::MAX);
-    let rgb = development(shot, exposure).rgb_from_xyz.map(|row| {
-        // Held to a fraction of the numbers, so that their sum is one.
-        const MOST: f64 = f64::MAX / 4.0;
-        let terms = row.iter().zip(channels);
-        let terms = terms.map(|(m, v)| (m * (v * gain)).clamp(-MOST, MOST));
-        terms.sum::<f64>()
-    });
+    let rgb = development(frame.sensor.color, exposure)
+        .rgb_from_xyz
+        .map(|row| {
+            // Held to a fraction of the numbers, so that their sum is one.
+            const MOST: f64 = f64::MAX / 4.0;
+            let terms = row.iter().zip(channels);
+            let terms = terms.map(|(m, v)| (m * (v * gain)).clamp(-MOST, MOST));
+            terms.sum::<f64>()
+        });
     Probe {
-        frame,
+        frame: frame.number,
         pixel,
         direction: direction.map(|direction| direction.to_array()),
         hit: chain.first().and_then(|node| node.hit.clone()),
@@ -171,12 +163,12 @@ pub fn probe(
 /// The shade tree of the ray through the centre of `pixel`, and its direction in the camera's rest
 /// frame; None where the camera's projection has no such ray.
 fn look(
-    shot: &Shot,
+    frame: &Frame<'_>,
     pixel: [u32; 2],
     view: &View<'_>,
     scene: &Scene,
 ) -> Option<(ShadeTrees, DVec3)> {
-    let point = [0, 1].map(|i| (f64::from(pixel[i]) + 0.5) / f64::from(shot.image.size[i]));
+    let point = [0, 1].map(|i| (f64::from(pixel[i]) + 0.5) / f64::from(frame.image.size[i]));
     let direction = scene.camera.looks_along(point)?;
     let mut trees = ShadeTrees::default();
     view.tracer()
@@ -184,7 +176,7 @@ fn look(
     Some((trees, direction))
 }
 
-/// The least number of bounces that would leave out little of a ray, where much is cut.
+/// The least number of bounces that would miss little of a ray, if much is cut.
 fn enough_bounces(view: &View<'_>, cut: f64, direction: DVec3) -> Option<u32> {
     let will_do = |bounces: u32| {
         let mut trees = ShadeTrees::default();
@@ -237,7 +229,7 @@ fn chain(view: &View<'_>, scene: &Scene, nodes: &[Node], direction: DVec3) -> Ve
     chain
 }
 
-/// The lobe that a branch leaves by.
+/// The lobe by which a branch leaves.
 fn lobe<'a>(scene: &'a Scene, nodes: &[Node], branch: &Branch) -> Option<&'a Lobe> {
     let Seen::Surface(surface) = nodes[branch.parent as usize].seen else {
         return None;

@@ -1,36 +1,35 @@
-//! The curves of a pixel as a plot: in the sensor's window, and over a band wide enough for all of
-//! the light that is shifted into or out of it.
+//! Plot of a pixel's curves: in the sensor's window, and over a band wide enough for all light that
+//! is shifted into or out of it.
 
 use super::{Probe, look};
 use crate::color::cie::{RANGE_NM, xyz_bar};
 use crate::color::spaces::{RGB_FROM_XYZ, apply, encode};
+use crate::frame::Frame;
 use crate::plot::{Axis, Color, Panel, Plot, Scale, Series, Stroke, Tint};
 use crate::render::View;
 use crate::scene::Scene;
 use crate::shade::Radiance;
-use crate::shot::Shot;
 use crate::spectrum::{catmull_rom, planck};
 
-/// The band that is always shown, nm: that of the 1990 paper's curves, and on to 50 µm for the
-/// thermal light of what is at room temperature.
+/// The band that is always shown, nm: that of the 1990 paper's curves, extended to 50 µm for the
+/// thermal light of bodies at room temperature.
 const USUAL_BAND: [f64; 2] = [50.0, 50_000.0];
-/// Beyond these wavelengths (nm) no band reaches, so that there is an end to them: D of 10²² and
-/// its inverse still keep what is visible within.
+/// Limits of any band, nm: even D of 10²² and its inverse keep the visible within.
 const WIDEST_BAND: [f64; 2] = [1e-20, 1e25];
 /// Spacing of wavelengths in ln λ: 0.6 nm at 600 nm.
 pub(super) const SPACING: f64 = 1e-3;
-/// A black body has less than 1 % of its peak outside of these multiples of the peak's wavelength.
+/// Multiples of the peak wavelength outside of which a black body has less than 1 % of its peak.
 const THERMAL: [f64; 2] = [0.328, 6.624];
-/// By how much a round wavelength may be missed, relative.
+/// Relative tolerance of a round wavelength.
 const ROUNDING: f64 = 1e-9;
 
-/// The weaker part of the light is shown down to this share of its own peak …
+/// Share of its own peak down to which the weaker part of the light is shown.
 const DEPTH: f64 = 1e-3;
-/// … but no less, and no more, than these shares of all light's peak.
+/// Upper and lower limit of that share, relative to the peak of all light.
 const DEPTHS: [f64; 2] = [1e-6, 1e-16];
 
 pub(super) const UNIT: &str = "W·m⁻²·sr⁻¹·nm⁻¹";
-// Three colours that no kind of colour vision confuses (Okabe & Ito 2008), the sum in grey.
+// Three colors that are distinct in all kinds of color vision (Okabe & Ito 2008), the sum in gray.
 const SUM: Color = [110, 110, 110];
 pub(super) const SURFACE: Color = [0, 92, 160];
 pub(super) const THERMAL_LIGHT: Color = [200, 70, 0];
@@ -47,11 +46,11 @@ pub struct WideBand {
 }
 
 /// The light of the pixel that `probe` tells of, with the same view, over a wide band.
-pub fn wide_band(shot: &Shot, probe: &Probe, view: &View<'_>, scene: &Scene) -> WideBand {
-    let band_nm = band(probe, shot.sensor.window, view, scene);
+pub fn wide_band(frame: &Frame<'_>, probe: &Probe, view: &View<'_>, scene: &Scene) -> WideBand {
+    let band_nm = band(probe, frame.sensor.window, view, scene);
     let count = ((band_nm[1] / band_nm[0]).ln() / SPACING).ceil() as u32;
     let shader = view.shader_over(band_nm, count);
-    let light = match look(shot, probe.pixel, view, scene) {
+    let light = match look(frame, probe.pixel, view, scene) {
         Some((trees, _)) => shader.radiance(&trees, trees.roots[0]),
         None => Radiance::new(count as usize),
     };
@@ -62,8 +61,8 @@ pub fn wide_band(shot: &Shot, probe: &Probe, view: &View<'_>, scene: &Scene) -> 
     }
 }
 
-/// The usual band, widened to what the camera sees of each source's visible light and of the
-/// greater part of its thermal light.
+/// The usual band, widened by the shifted visible light of each source and by the greater part of
+/// its thermal light.
 fn band(probe: &Probe, window_nm: [f64; 2], view: &View<'_>, scene: &Scene) -> [f64; 2] {
     let mut band = USUAL_BAND;
     let mut widen = |range_nm: [f64; 2]| {
@@ -72,7 +71,7 @@ fn band(probe: &Probe, window_nm: [f64; 2], view: &View<'_>, scene: &Scene) -> [
     widen(window_nm);
     for node in &probe.chain {
         let doppler = match (&node.hit, node.parent) {
-            _ if !view.called.doppler => 1.0,
+            _ if !view.effects.doppler => 1.0,
             (Some(hit), _) => hit.doppler,
             (None, None) => node.doppler,
             (None, Some(parent)) => {
@@ -84,7 +83,7 @@ fn band(probe: &Probe, window_nm: [f64; 2], view: &View<'_>, scene: &Scene) -> [
         let name = node.hit.as_ref().map(|hit| &hit.material);
         let material = scene.materials.iter().find(|m| Some(&m.name) == name);
         let thermal = material.and_then(|m| m.thermal.as_ref());
-        if let Some(thermal) = thermal.filter(|_| view.called.thermal) {
+        if let Some(thermal) = thermal.filter(|_| view.effects.thermal) {
             let peak = planck::peak_nm(thermal.temperature_k) / doppler;
             widen(THERMAL.map(|share| share * peak));
         }
@@ -93,7 +92,7 @@ fn band(probe: &Probe, window_nm: [f64; 2], view: &View<'_>, scene: &Scene) -> [
     [rounded_down(low), rounded_up(high)]
 }
 
-/// 1 or 5 times the power of ten that is next below a wavelength, or it.
+/// The next 1 or 5 times a power of ten at or below a wavelength.
 fn rounded_down(nm: f64) -> f64 {
     let decade = 10f64.powf((nm * (1.0 + ROUNDING)).log10().floor());
     if nm * (1.0 + ROUNDING) >= 5.0 * decade {
@@ -103,7 +102,7 @@ fn rounded_down(nm: f64) -> f64 {
     }
 }
 
-/// The same above.
+/// The next 1 or 5 times a power of ten at or above a wavelength.
 fn rounded_up(nm: f64) -> f64 {
     let decade = 10f64.powf((nm * (1.0 - ROUNDING)).log10().floor());
     if nm * (1.0 - ROUNDING) <= 5.0 * decade {
@@ -113,7 +112,7 @@ fn rounded_up(nm: f64) -> f64 {
     }
 }
 
-/// The plot of a pixel of a shot of this title.
+/// The plot of a pixel, with this title.
 pub fn plot(title: &str, window_nm: [f64; 2], probe: &Probe, wide: &WideBand) -> Plot {
     let [x, y] = probe.pixel;
     let doppler = probe.hit.as_ref().map_or_else(
@@ -153,7 +152,7 @@ pub fn plot(title: &str, window_nm: [f64; 2], probe: &Probe, wide: &WideBand) ->
     }
 }
 
-/// So many decimals, in the shorter way to write a number.
+/// A number with this many decimals, in its shorter notation.
 pub(super) fn digits(value: f64, decimals: usize) -> String {
     if (1e-3..1e5).contains(&value) {
         format!("{value:.decimals$}")
@@ -162,7 +161,7 @@ pub(super) fn digits(value: f64, decimals: usize) -> String {
     }
 }
 
-/// The sum is wide and below, so that what makes it is seen on it.
+/// The sum is wide and below, so that its parts are visible on it.
 fn series(wavelengths: &[f64], [surface, thermal, sum]: [Vec<f64>; 3]) -> Vec<Series> {
     vec![
         curve("sum", SUM, Stroke::Solid(5.0), wavelengths, sum),
@@ -201,7 +200,7 @@ pub(super) fn curve(
     }
 }
 
-/// Values between those of the sensor's wavelengths, by the cubic that its sums are exact for.
+/// Values between those at the sensor's wavelengths, by the cubic for which its sums are exact.
 fn finer(values: &[f64]) -> Vec<f64> {
     const PARTS: usize = 4;
     let Some(last) = values.len().checked_sub(1) else {
@@ -215,7 +214,7 @@ fn finer(values: &[f64]) -> Vec<f64> {
         let neighbors = [first.saturating_sub(1), first, first + 1, first + 2];
         let taps = neighbors.into_iter().zip(catmull_rom(t));
         let value: f64 = taps.map(|(j, tap)| tap * values[j.min(last)]).sum();
-        // The cubic overshoots where a curve falls to nothing.
+        // The cubic overshoots where a curve falls to 0.
         value.clamp(0.0, f64::MAX)
     };
     (0..=last * PARTS).map(between).collect()
@@ -229,7 +228,7 @@ pub(super) fn peak(curve: &[f64]) -> f64 {
     curve.iter().copied().fold(0.0, f64::max)
 }
 
-/// Least and greatest of what a logarithmic axis is to show of some curves, the last their sum.
+/// Least and greatest value of a logarithmic axis for some curves, of which the last is the sum.
 fn depth(curves: [&Vec<f64>; 3]) -> [f64; 2] {
     let largest = peak(curves[2]);
     if largest <= 0.0 {
@@ -243,7 +242,7 @@ fn depth(curves: [&Vec<f64>; 3]) -> [f64; 2] {
     ]
 }
 
-/// The colours of the visible band, faint enough to draw on.
+/// The colors of the visible band, faint enough to draw on.
 pub(super) fn visible() -> Vec<Tint> {
     const STEP_NM: f64 = 2.5;
     let count = ((RANGE_NM[1] - RANGE_NM[0]) / STEP_NM) as usize;
@@ -258,7 +257,7 @@ pub(super) fn visible() -> Vec<Tint> {
         .collect()
 }
 
-/// The hue of a wavelength on white, fainter towards the ends of the visible.
+/// The hue of a wavelength on white, fainter toward the ends of the visible.
 fn tint(nm: f64) -> Color {
     const STRENGTH: f64 = 0.35;
     const FULL_FROM: f64 = 0.25;

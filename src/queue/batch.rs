@@ -2,7 +2,7 @@
 //! trace, of whatever shots, as many as the memory is meant to hold.
 
 use super::memory::most_together;
-use crate::plan::{FrameKey, Trace};
+use crate::frame::{FrameFingerprint, TraceKey};
 use crate::render::Options;
 use crate::store::{Claim, FileStamps, Status};
 
@@ -12,7 +12,7 @@ pub(super) struct FrameTask {
     /// Number of its job in the run.
     pub(super) job: usize,
     pub(super) frame: u32,
-    pub(super) trace: Trace,
+    pub(super) trace: TraceKey,
     pub(super) status: Status,
     /// Its files as they were when `status` was judged; empty, where nothing was there.
     pub(super) stamps: FileStamps,
@@ -35,7 +35,7 @@ impl FrameTask {
 pub(super) struct ClaimedFrame {
     pub(super) task: FrameTask,
     /// What the frame is made of.
-    pub(super) key: FrameKey,
+    pub(super) key: FrameFingerprint,
     pub(super) claim: Claim,
 }
 

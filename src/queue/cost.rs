@@ -5,9 +5,8 @@
 //! effects, else of any of this shot, else of the other shots below the same folder, else by a guess.
 
 use super::memory::image_bytes;
-use crate::plan::{self, Called, Picture};
-use crate::render::spliced;
-use crate::shot::{Beaming, Format, Shot};
+use crate::frame::{Frame, Resolution};
+use crate::shot::{Format, Shot};
 use crate::store::{Names, Record, ShotFolder, read_records};
 use std::collections::HashMap;
 use std::fs;
@@ -131,7 +130,7 @@ impl Costs {
     }
 
     /// What a frame of these effects and size will take.
-    pub fn estimate(&self, effects: &[String], picture: Picture) -> Estimate {
+    pub fn estimate(&self, effects: &[String], picture: Resolution) -> Estimate {
         let same = self.by_effects.get(effects).and_then(Mean::rate);
         let known = same
             .or_else(|| self.own.rate())
@@ -146,56 +145,15 @@ impl Costs {
     }
 
     /// Seconds that a frame of these effects and size will take on its own.
-    pub fn seconds(&self, effects: &[String], picture: Picture) -> f64 {
+    pub fn seconds(&self, effects: &[String], picture: Resolution) -> f64 {
         self.estimate(effects, picture).seconds()
     }
 }
 
-/// Names of the effects that are simulated, as [`Record::effects`] has them.
-pub fn effect_names(called: &Called) -> Vec<String> {
-    [
-        ("geometry", called.geometry),
-        ("doppler", called.doppler),
-        ("beaming", called.beaming != Beaming::Off),
-        ("thermal", called.thermal),
-        ("shadows", called.shadows),
-        ("mirror", called.mirror),
-        ("refraction", called.refraction),
-    ]
-    .into_iter()
-    .filter(|(_, is_on)| *is_on)
-    .map(|(name, _)| name.to_owned())
-    .collect()
+/// Names of the effects that are simulated in a frame; none in one that is refused.
+pub(super) fn active_names(shot: &Shot, frame: u32) -> Vec<String> {
+    Frame::new(shot, frame).map_or_else(|_| Vec::new(), |frame| frame.active_names())
 }
-
-/// Names of the effects that are simulated in a frame, in all of it or in a splice.
-pub fn frame_effects(shot: &Shot, frame: u32) -> Vec<String> {
-    let splices = shot
-        .splice
-        .iter()
-        .map(|splice| spliced(&shot.effects, splice));
-    let mut found: Vec<String> = Vec::new();
-    for effects in std::iter::once(shot.effects).chain(splices) {
-        // A frame without a velocity is refused by whoever renders it.
-        let called = plan::called(shot, frame, &effects);
-        found.extend(called.iter().flat_map(effect_names));
-    }
-    let mut named = effect_names(&ALL);
-    named.retain(|name| found.contains(name));
-    named
-}
-
-/// Every effect, for the order of their names.
-const ALL: Called = Called {
-    geometry: true,
-    doppler: true,
-    beaming: Beaming::Full,
-    thermal: true,
-    shadows: true,
-    mirror: true,
-    refraction: true,
-    because: Vec::new(),
-};
 
 fn rays([width, height]: [u32; 2], samples: u32) -> f64 {
     f64::from(width) * f64::from(height) * f64::from(samples)
@@ -217,7 +175,7 @@ fn rate_of(record: &Record) -> Option<Rate> {
 /// Bytes that the files of a frame take: as many as finished ones of this size on average, else by
 /// what pictures usually take.
 pub fn frame_bytes(shot_folder: &ShotFolder) -> u64 {
-    let picture = shot_folder.keys.picture();
+    let picture = shot_folder.keys.resolution();
     let alike = |record: &&Record| record.size == picture.size;
     let sizes: Vec<u64> = shot_folder
         .records
@@ -256,7 +214,7 @@ pub fn memory_bytes(shot_folder: &ShotFolder, films: usize, threads: usize) -> u
         .saturating_add(meshes)
 }
 
-fn pixels(picture: Picture) -> u64 {
+fn pixels(picture: Resolution) -> u64 {
     picture.size.map(u64::from).iter().product()
 }
 

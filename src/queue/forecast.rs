@@ -4,10 +4,9 @@
 //! A first look at all frames tells which share a trace, and what is there; then each is planned and
 //! handed on before the next, so that of a million frames some bytes each are held.
 
-use super::cost::{Costs, Estimate, effect_names, frame_bytes, frame_effects, memory_bytes};
+use super::cost::{Costs, Estimate, frame_bytes, memory_bytes};
 use super::memory::most_together;
-use crate::plan::{self, Called, Trace};
-use crate::render::{motion_mistake, refuse_shifted_numbers};
+use crate::frame::{ActiveEffects, Frames, TraceKey, refuse_shifted_rgb};
 use crate::shot::{Mistakes, Shot};
 use crate::store::{ShotFolder, Status};
 use rayon::prelude::*;
@@ -37,7 +36,7 @@ pub struct FrameForecast {
     /// Its number.
     pub frame: u32,
     /// What is simulated in it, and why.
-    pub called: Called,
+    pub called: ActiveEffects,
     /// Whether it has to be rendered.
     pub status: Status,
     /// Number of its trace, in the order of their first frames.
@@ -86,7 +85,7 @@ impl<'a> Forecast<'a> {
     /// # Errors
     /// Frames of which three numbers would be shifted, and velocities that are none between two keys.
     pub fn new(folder: &'a ShotFolder, frames: Vec<u32>) -> Result<Self, Mistakes> {
-        refuse_shifted_numbers(folder.shot())?;
+        refuse_shifted_rgb(folder.shot())?;
         check_motion(folder.shot(), &frames)?;
         let there: Vec<u32> = {
             let there = folder.there();
@@ -95,10 +94,10 @@ impl<'a> Forecast<'a> {
         };
         let statuses = folder.statuses(&there);
         let there: BTreeMap<u32, Status> = there.into_iter().zip(statuses).collect();
-        let mut numbers: HashMap<Trace, u32> = HashMap::new();
+        let mut numbers: HashMap<TraceKey, u32> = HashMap::new();
         let mut sharing: Vec<[u32; 2]> = Vec::new();
         let mut traces = Vec::with_capacity(frames.len());
-        for (frame, trace) in frames.iter().zip(folder.keys.traces_of(&frames)) {
+        for (frame, trace) in frames.iter().zip(folder.keys.trace_keys_of(&frames)) {
             let number = *numbers.entry(trace).or_insert(sharing.len() as u32);
             if number as usize == sharing.len() {
                 sharing.push([0; 2]);
@@ -131,11 +130,14 @@ impl<'a> Forecast<'a> {
         let mut sums = Sums::default();
         let places: Vec<usize> = (0..self.frames.len()).collect();
         for some in places.chunks(AT_ONCE) {
-            let planned = some.par_iter().map(|place| {
-                let planned = self.frame(*place)?;
-                let made = made(&planned);
-                Ok((planned, made))
-            });
+            let planned = some.par_iter().map_init(
+                || Frames::new(self.folder.shot()),
+                |frames, place| {
+                    let planned = self.frame(frames, *place)?;
+                    let made = made(&planned);
+                    Ok((planned, made))
+                },
+            );
             for planned in planned.collect::<Vec<Result<_, Mistakes>>>() {
                 let (planned, made) = planned?;
                 sums.add(&planned);
@@ -148,16 +150,15 @@ impl<'a> Forecast<'a> {
     }
 
     /// Plans the frame at a place of the list.
-    fn frame(&self, place: usize) -> Result<FrameForecast, Mistakes> {
-        let (folder, shot, frame) = (self.folder, self.folder.shot(), self.frames[place]);
-        let called = plan::called(shot, frame, &shot.effects)
-            .map_err(|error| motion_mistake(shot, &error))?;
-        let effects = if shot.splice.is_empty() {
-            effect_names(&called)
-        } else {
-            frame_effects(shot, frame)
+    fn frame(&self, frames: &mut Frames<'_>, place: usize) -> Result<FrameForecast, Mistakes> {
+        let (folder, frame) = (self.folder, self.frames[place]);
+        let values = frames.at(frame)?;
+        let called = values.active_effects(&values.effects);
+        let effects = match values.splices.is_empty() {
+            true => called.names(),
+            false => values.active_names(),
         };
-        let estimate = self.costs.estimate(&effects, folder.keys.picture());
+        let estimate = self.costs.estimate(&effects, folder.keys.resolution());
         let status = self.there.get(&frame).unwrap_or(&Status::Missing).clone();
         let trace = self.traces[place];
         let [_, left] = self.sharing[trace as usize];
@@ -213,9 +214,10 @@ impl Sums {
 
 /// Refuses velocities that are none between two keys, before anything is told.
 fn check_motion(shot: &Shot, frames: &[u32]) -> Result<(), Mistakes> {
-    let wrong = frames.par_iter().find_map_first(|frame| {
-        let mut names = shot.worldline.keys();
-        names.find_map(|name| plan::celerity(shot, name, *frame).err())
-    });
-    wrong.map_or(Ok(()), |error| Err(motion_mistake(shot, &error)))
+    let wrong = frames.par_iter().map_init(
+        || Frames::new(shot),
+        |frames, number| frames.at(*number).err(),
+    );
+    let wrong = wrong.find_map_first(|mistakes| mistakes);
+    wrong.map_or(Ok(()), Err)
 }

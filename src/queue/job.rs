@@ -1,12 +1,12 @@
 //! A shot of the run: which of its frames are there, and what became of each.
 
 use super::batch::FrameTask;
-use super::cost::{Costs, frame_effects};
+use super::cost::{Costs, active_names};
 use super::memory::check_memory;
 use super::settings::{Force, Output, Settings};
 use super::shard::Shard;
 use crate::accel::Aggregate;
-use crate::plan::{FrameKey, Trace};
+use crate::frame::{FrameFingerprint, TraceKey};
 use crate::progress::{FrameOutcome, Progress};
 use crate::render::{Exposing, Options, Prepared};
 use crate::scene::Scene;
@@ -57,7 +57,7 @@ impl Job {
         } else {
             vec![(FileStamps::default(), Status::Missing); frames.len()]
         };
-        let traces = folder.keys.traces_of(&frames);
+        let traces = folder.keys.trace_keys_of(&frames);
         let tasks = frames.iter().zip(traces).zip(statuses);
         let tasks = tasks.map(|((frame, trace), (stamps, status))| FrameTask {
             job: 0,
@@ -189,7 +189,7 @@ impl Job {
     }
 
     /// Whether another process made a frame what it should be since it was looked at.
-    pub(super) fn was_rendered_meanwhile(&self, task: &FrameTask, key: &FrameKey) -> bool {
+    pub(super) fn was_rendered_meanwhile(&self, task: &FrameTask, key: &FrameFingerprint) -> bool {
         // Manifests are not read again, frame after frame: the files tell enough.
         self.folder.stamps(task.frame) != task.stamps
             && self.folder.status(task.frame, key) == Status::Fresh
@@ -203,13 +203,13 @@ impl Job {
 
     /// Seconds that each task is expected to take, of a shared trace its part.
     fn costs(&self, tasks: &[FrameTask], costs: Costs) -> impl Iterator<Item = f64> {
-        let mut sharing: HashMap<Trace, f64> = HashMap::new();
+        let mut sharing: HashMap<TraceKey, f64> = HashMap::new();
         for task in tasks {
             *sharing.entry(task.trace).or_default() += 1.0;
         }
         tasks.iter().map(move |task| {
-            let effects = frame_effects(self.folder.shot(), task.frame);
-            let estimate = costs.estimate(&effects, self.folder.keys.picture());
+            let effects = active_names(self.folder.shot(), task.frame);
+            let estimate = costs.estimate(&effects, self.folder.keys.resolution());
             estimate.trace / sharing[&task.trace] + estimate.shade
         })
     }
@@ -280,7 +280,7 @@ fn is_wanted(task: &FrameTask, force: Force) -> bool {
 /// a machine finds there, all deal alike.
 pub(super) fn choose_shard(folders: &mut [(ShotFolder, Vec<u32>)], shard: Shard) {
     let all = folders.iter();
-    let traces = all.flat_map(|(folder, frames)| folder.keys.traces_of(frames));
+    let traces = all.flat_map(|(folder, frames)| folder.keys.trace_keys_of(frames));
     let mut ours = shard.choose(traces).into_iter();
     for (_, frames) in folders {
         frames.retain(|_| ours.next() == Some(true));

@@ -22,7 +22,7 @@ mod shard;
 mod signals;
 mod write_batch;
 
-pub use cost::{Costs, Estimate, effect_names, frame_bytes, frame_effects, memory_bytes};
+pub use cost::{Costs, Estimate, frame_bytes, memory_bytes};
 pub use forecast::{Forecast, FrameForecast, Totals};
 pub use frames::{FrameList, FrameListError, Resolved, list_of};
 pub use job::Job;

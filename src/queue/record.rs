@@ -1,9 +1,8 @@
 //! The record of a frame that has just been finished.
 
-use super::cost::frame_effects;
 use super::job::Job;
 use super::render_batch::stops;
-use crate::plan::FrameKey;
+use crate::frame::{Frame, FrameFingerprint};
 use crate::render::Pictures;
 use crate::store::{Record, Seconds, host, now, peak_memory_mib};
 
@@ -18,16 +17,16 @@ pub(super) fn warnings(made: &Pictures, left_out: Option<String>) -> Vec<String>
 }
 
 /// The record of a frame, but for its files, times and warnings.
-pub(super) fn new_record(job: &Job, frame: u32, key: &FrameKey) -> Record {
+pub(super) fn new_record(job: &Job, frame: &Frame<'_>, key: &FrameFingerprint) -> Record {
     let options = job.options();
     Record {
-        frame,
+        frame: frame.number,
         fingerprint: key.fingerprint.clone(),
-        parts: key.parts.clone(),
+        parts: key.inputs.clone(),
         files: Vec::new(),
         size: [options.width, options.height],
         samples: options.samples,
-        effects: frame_effects(job.folder.shot(), frame),
+        effects: frame.active_names(),
         trace: key.trace.clone(),
         shared: 1,
         exposure: stops(job, frame),

@@ -5,11 +5,9 @@ use super::job::Job;
 use super::memory::{TooLarge, check_memory};
 use super::settings::Settings;
 use crate::accel::Aggregate;
-use crate::plan::{self, MotionError};
+use crate::frame::Frame;
 use crate::progress::Progress;
-use crate::render::{
-    Exposing, Member, Prepared, Together, TogetherError, Watch, motion_mistake, render_together,
-};
+use crate::render::{Exposing, Member, Prepared, Stopped, Together, Watch, render_together};
 use crate::scene::Scene;
 use crate::shot::Mistakes;
 use crate::trace::build_aggregate;
@@ -59,16 +57,13 @@ pub(super) fn render(
     }
     let first = batch[0].task.job;
     let kept = jobs[first].kept.take();
-    let scenes = scenes(jobs, batch, kept.as_ref().map(|(scene, _)| scene))?;
     let jobs = &*jobs;
+    let frames = frames(jobs, batch)?;
+    let scenes = scenes(jobs, batch, &frames, kept.as_ref().map(|(scene, _)| scene))?;
     let stage = stage(kept, &scenes[0]);
     let prepare = begun.elapsed().as_secs_f64();
-    let member = |(claimed, scene)| {
-        let ClaimedFrame { task, .. }: &ClaimedFrame = claimed;
-        let (shot, frame) = (jobs[task.job].folder.shot(), task.frame);
-        Member { shot, frame, scene }
-    };
-    let members: Vec<Member<'_>> = batch.iter().zip(&scenes).map(member).collect();
+    let member = |(frame, scene)| Member { frame, scene };
+    let members: Vec<Member<'_>> = frames.iter().zip(&scenes).map(member).collect();
     let options = jobs[first].options();
     let rays = f64::from(options.width) * f64::from(options.height) * f64::from(options.samples);
     let work: f64 = batch.iter().map(|claimed| claimed.task.work).sum();
@@ -78,10 +73,7 @@ pub(super) fn render(
         stop: settings.stop,
     };
     let rendered = render_together(&members, &stage, options, watch);
-    let mut together = rendered.map_err(|error| match error {
-        TogetherError::Stopped => Unrendered::Stopped,
-        TogetherError::Motion(error) => astray(&members, &error),
-    })?;
+    let mut together = rendered.map_err(|Stopped| Unrendered::Stopped)?;
     together.prepare += prepare;
     Ok(RenderedBatch {
         first,
@@ -92,10 +84,9 @@ pub(super) fn render(
 }
 
 /// Exposure of a frame, stops.
-pub(super) fn stops(job: &Job, frame: u32) -> f64 {
-    let frames = job.folder.shot().shot.frames;
+pub(super) fn stops(job: &Job, frame: &Frame<'_>) -> f64 {
     let exposing = job.exposing.as_ref();
-    exposing.map_or(0.0, |exposing| exposing.stops(frame, frames))
+    exposing.map_or(0.0, |exposing| exposing.stops(frame))
 }
 
 /// Finds a shot's exposure, once.
@@ -115,11 +106,21 @@ fn meter(job: &mut Job, progress: &Progress<'_>) -> Result<(), Mistakes> {
     Ok(())
 }
 
+/// The frames of a batch.
+fn frames<'a>(jobs: &'a [Job], batch: &[ClaimedFrame]) -> Result<Vec<Frame<'a>>, Unrendered> {
+    let frame = |(index, ClaimedFrame { task, .. }): (usize, &ClaimedFrame)| {
+        let frame = Frame::new(jobs[task.job].folder.shot(), task.frame);
+        frame.map_err(|m| mistaken(index, m))
+    };
+    batch.iter().enumerate().map(frame).collect()
+}
+
 /// The scenes of a batch; bodies are taken over from the last one of the same shot, first from
 /// `kept`, which is of the first frame's.
 fn scenes(
     jobs: &[Job],
     batch: &[ClaimedFrame],
+    frames: &[Frame<'_>],
     kept: Option<&Scene>,
 ) -> Result<Vec<Scene>, Unrendered> {
     let mut scenes: Vec<Scene> = Vec::with_capacity(batch.len());
@@ -129,12 +130,7 @@ fn scenes(
         let last = (0..index).rev().find(|&i| batch[i].task.job == number);
         let kept = kept.filter(|_| number == batch[0].task.job);
         let earlier = last.map(|last| &scenes[last]).or(kept);
-        let scene = Scene::resolve(
-            &prepared.shot,
-            &prepared.library,
-            claimed.task.frame,
-            earlier,
-        );
+        let scene = Scene::resolve(&frames[index], &prepared.library, earlier);
         scenes.push(scene.map_err(|m| mistaken(index, m))?);
     }
     Ok(scenes)
@@ -149,14 +145,6 @@ fn stage(kept: Option<(Scene, Aggregate)>, scene: &Scene) -> Aggregate {
             build_aggregate(&scene.geometry, earlier)
         }
     }
-}
-
-/// The member that a worldline without velocity is of: others may have one of its name.
-fn astray(members: &[Member<'_>], error: &MotionError) -> Unrendered {
-    let fails =
-        |member: &Member<'_>| plan::celerity(member.shot, &error.worldline, member.frame).is_err();
-    let index = members.iter().position(fails).unwrap_or(0);
-    mistaken(index, motion_mistake(members[index].shot, error))
 }
 
 fn mistaken(index: usize, mistakes: Mistakes) -> Unrendered {

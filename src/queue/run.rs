@@ -25,14 +25,16 @@ use std::time::Duration;
 /// use std::sync::Mutex;
 /// use std::sync::atomic::AtomicBool;
 ///
-/// // A grey background, seen by a camera at rest.
+/// // A ball in front of a gray background, seen by a camera at rest.
 /// let text = r#"
 /// [image]
 /// size = [4, 2]
+/// [[model]]
+/// file = "assets/sphere.obj"
 /// [background]
 /// spectrum = 0.001
 /// [camera]
-/// position = [0, 0, 0]
+/// position = [0, 0, 5]
 /// [sensor]
 /// exposure = 0
 /// "#;

@@ -8,6 +8,7 @@ use super::render_batch::{RenderedBatch, stops};
 use super::settings::{Output, RenderedFrame, Settings};
 use crate::accel::Aggregate;
 use crate::film::{Film, SILENT};
+use crate::frame::Frame;
 use crate::plot::Plot;
 use crate::probe;
 use crate::progress::FrameOutcome;
@@ -22,6 +23,7 @@ use std::time::{Duration, Instant};
 type Rendered<'a> = (ClaimedFrame, &'a Scene, Film);
 
 /// What the picture of a frame shows beside its film, looked up in the same scene and trees.
+#[derive(Default)]
 struct Probed {
     /// Plots of its insets.
     insets: Vec<Option<Plot>>,
@@ -77,19 +79,12 @@ pub(super) fn write(
             .filter_map(|(rendered, probed)| Some((rendered, probed?)))
             .map(|((claimed, scene, film), probed)| {
                 let job = &jobs[claimed.task.job];
-                let shot = job.folder.shot();
-                let info = PictureInfo {
-                    exposure_stops: stops(job, claimed.task.frame),
-                    samples: job.options().samples,
-                    fingerprint: Some(&claimed.key.fingerprint),
-                };
-                let Probed { insets, left_out } = probed;
-                let made = encode(shot, claimed.task.frame, scene, &film, &insets, info);
-                (claimed, made, film.left_out.share(), left_out)
+                let made = probed.and_then(|probed| encoded(job, &claimed, scene, &film, probed));
+                (claimed, made)
             })
             .collect();
         let encode_seconds = begun.elapsed().as_secs_f64() / encoded.len() as f64;
-        for (claimed, made, cut, left_out) in encoded {
+        for (claimed, made) in encoded {
             let job = &mut jobs[claimed.task.job];
             let seconds = Seconds {
                 prepare: part(prepare),
@@ -100,17 +95,15 @@ pub(super) fn write(
             };
             match made {
                 _ if job.halted.is_some() => settings.progress.discard(claimed.task.work),
-                Ok(made) => {
+                Ok((made, record)) => {
                     let record = Record {
-                        warnings: warnings(&made, left_out),
-                        cut,
                         seconds,
                         shared: u32::try_from(shared).unwrap_or(u32::MAX),
-                        ..new_record(job, claimed.task.frame, &claimed.key)
+                        ..record
                     };
                     put(job, &claimed.task, made, record, settings);
                 }
-                Err(error) => job.fail(&claimed.task, &error.to_string(), settings.progress),
+                Err(error) => job.fail(&claimed.task, &error, settings.progress),
             }
             // Only now may another process look at the frame.
             drop(claimed.claim);
@@ -128,23 +121,56 @@ fn probe(
     chunk: &[Rendered<'_>],
     stage: &Aggregate,
     settings: &Settings<'_>,
-) -> Vec<Option<Probed>> {
+) -> Vec<Option<Result<Probed, String>>> {
     let probed = chunk.par_iter().map(|(claimed, scene, film)| {
         let job = &jobs[claimed.task.job];
-        let (shot, frame) = (job.folder.shot(), claimed.task.frame);
-        let is_quick = shot.inset.is_empty() && film.left_out.share() <= SILENT;
-        if !is_quick && settings.is_stopped() {
+        let shot = job.folder.shot();
+        if shot.inset.is_empty() && film.left_out.share() <= SILENT {
+            return Some(Ok(Probed::default()));
+        }
+        if settings.is_stopped() {
             return None;
         }
-        let member = Member { shot, frame, scene };
+        let frame = match Frame::new(shot, claimed.task.frame) {
+            Ok(frame) => frame,
+            Err(mistakes) => return Some(Err(mistakes.to_string())),
+        };
+        let frame = &frame;
+        let member = Member { frame, scene };
         let size = [film.width, film.height];
-        let insets = probe::insets(member, stage, stops(job, frame), size);
-        Some(Probed {
-            insets: insets.unwrap_or_default(),
+        Some(Ok(Probed {
+            insets: probe::insets(member, stage, stops(job, frame), size),
             left_out: left_out_warning(member, stage, film),
-        })
+        }))
     });
     probed.collect()
+}
+
+/// A film as files, and their record but for its files and times.
+///
+/// # Errors
+/// When an encoder refuses.
+fn encoded(
+    job: &Job,
+    claimed: &ClaimedFrame,
+    scene: &Scene,
+    film: &Film,
+    probed: Probed,
+) -> Result<(Pictures, Record), String> {
+    let Probed { insets, left_out } = probed;
+    let frame = Frame::new(job.folder.shot(), claimed.task.frame).map_err(|m| m.to_string())?;
+    let info = PictureInfo {
+        exposure_stops: stops(job, &frame),
+        samples: job.options().samples,
+        fingerprint: Some(&claimed.key.fingerprint),
+    };
+    let made = encode(&frame, scene, film, &insets, info).map_err(|error| error.to_string())?;
+    let record = Record {
+        warnings: warnings(&made, left_out),
+        cut: film.left_out.share(),
+        ..new_record(job, &frame, &claimed.key)
+    };
+    Ok((made, record))
 }
 
 /// The files of a frame to where they go, then its record.

@@ -1,13 +1,13 @@
-//! Films, and the bands of rows that threads write to.
+//! Bands of rows, in which threads write to films.
 
 use super::Options;
 use crate::film::{Channels, Film, Layers, LeftOut};
 use crate::shot::Layer;
 
-/// Rows of pixels that one thread takes at a time.
+/// Rows of pixels in a band, which one thread takes at a time.
 pub(super) const BAND: usize = 8;
 
-/// What one band of rows of an image writes to.
+/// The part of an image's film that belongs to one band.
 pub(super) struct Part<'a> {
     pub(super) xyz: &'a mut [[f32; 3]],
     pub(super) layers: Vec<(Layer, &'a mut [f32])>,
@@ -16,7 +16,7 @@ pub(super) struct Part<'a> {
 }
 
 impl Part<'_> {
-    /// Takes the layers of an image of the same trees.
+    /// Copies the layers from an image with the same trees.
     pub(super) fn copy_layers(&mut self, from: &Part<'_>) {
         for ((_, values), (_, from)) in self.layers.iter_mut().zip(&from.layers) {
             values.copy_from_slice(from);
@@ -24,7 +24,7 @@ impl Part<'_> {
     }
 }
 
-/// A film on which nothing has fallen.
+/// A film without light.
 pub(super) fn empty_film(options: &Options, channels: Channels) -> Film {
     let pixels = options.width as usize * options.height as usize;
     let layer = |which: Layer, background: f32| {
@@ -48,7 +48,7 @@ pub(super) fn empty_film(options: &Options, channels: Channels) -> Film {
     }
 }
 
-/// For each band of rows its part of every film.
+/// For each band of rows, its part of every film.
 pub(super) fn bands(films: &mut [Film]) -> Vec<Vec<Part<'_>>> {
     let mut bands: Vec<Vec<Part<'_>>> = Vec::new();
     for film in films {

@@ -1,30 +1,31 @@
-//! A film to the files of one frame, as bytes: developed, insets drawn, encoded.
+//! From a film to the files of one frame, as bytes: development, insets, encoding.
 
 use super::development;
 use crate::film::{Film, develop, to_rgb8};
+use crate::frame::{Frame, Sensor};
 use crate::image::{EncodeError, Metadata, SOFTWARE, exr, png};
 use crate::plot::{LEAST_INSET, Plot, lay_out_inset, raster, svg};
 use crate::scene::Scene;
-use crate::shot::{Depth, Exposure, Format, Inset, Sensor, Sequence, Shot, Track};
+use crate::shot::{Depth, Exposure, Format, Inset, Sequence, Track};
 
 /// The files of a frame: extension and content, and how many values had to be clamped.
 pub struct Pictures {
     /// Extension and bytes, in the order of the shot's formats.
     pub files: Vec<(&'static str, Vec<u8>)>,
-    /// Values beyond what a file can hold.
+    /// Number of values beyond what a file can hold, which were clamped.
     pub saturated: u64,
-    /// What could not be drawn, and why.
+    /// Insets that could not be drawn, with reasons.
     pub warnings: Vec<String>,
 }
 
-/// How a film was exposed, beside what the shot says.
+/// Facts on how a film was exposed that are not in the shot.
 #[derive(Debug, Clone, Copy)]
 pub struct PictureInfo<'a> {
     /// Exposure, stops.
     pub exposure_stops: f64,
     /// Samples a pixel.
     pub samples: u32,
-    /// [`FrameKey::fingerprint`](crate::plan::FrameKey), for pictures that are to be known again.
+    /// [`FrameFingerprint::fingerprint`](crate::frame::FrameFingerprint), for pictures that are to be known again.
     pub fingerprint: Option<&'a str>,
 }
 
@@ -34,36 +35,35 @@ pub struct PictureInfo<'a> {
 /// # Errors
 /// When an encoder refuses.
 pub fn encode(
-    shot: &Shot,
-    frame: u32,
+    frame: &Frame<'_>,
     scene: &Scene,
     film: &Film,
     insets: &[Option<Plot>],
     info: PictureInfo<'_>,
 ) -> Result<Pictures, EncodeError> {
-    let development = development(shot, info.exposure_stops);
+    let development = development(frame.sensor.color, info.exposure_stops);
     let developed = develop(film, &development);
     let metadata = Metadata {
         channels: film.channels,
-        window_nm: window_nm(&shot.sensor),
-        ..metadata(shot, frame, scene, info)
+        window_nm: window_nm(frame.sensor),
+        ..metadata(frame, scene, info)
     };
     let (width, height) = (film.width, film.height);
     let mut files = Vec::new();
     let mut saturated = developed.saturated;
     let mut warnings = Vec::new();
-    for format in &shot.output.formats {
+    for format in &frame.output.formats {
         files.push(match format {
             Format::Png => {
                 let mut rgb = to_rgb8(&developed, development.encode);
-                let drawn = shot.inset.iter().zip(insets).map(|(inset, plot)| {
-                    draw(shot, inset, plot.as_ref(), &mut rgb, [width, height])
+                let drawn = frame.insets.iter().zip(insets).map(|(inset, plot)| {
+                    draw(frame, inset, plot.as_ref(), &mut rgb, [width, height])
                 });
                 warnings.extend(drawn.filter_map(Result::err));
                 ("png", png::encode(width, height, &rgb, &metadata)?)
             }
             Format::Exr => {
-                let depth = exr_depth(shot.output.depth);
+                let depth = exr_depth(frame.output.depth);
                 saturated += exr::clamped(&developed, depth);
                 let layers = &film.layers;
                 (
@@ -85,13 +85,13 @@ pub fn encode(
 /// # Errors
 /// Why it is left out.
 fn draw(
-    shot: &Shot,
+    frame: &Frame<'_>,
     inset: &Inset,
     plot: Option<&Plot>,
     rgb8: &mut [u8],
     size: [u32; 2],
 ) -> Result<(), String> {
-    let [x, y] = inset.pixel_of(shot.image.size);
+    let [x, y] = inset.pixel_of(frame.image.size);
     let (corner, [width, height]) = inset.place_in(size);
     let plot = plot.ok_or_else(|| {
         format!(
@@ -113,13 +113,13 @@ fn exr_depth(depth: Depth) -> exr::Depth {
     }
 }
 
-fn metadata(shot: &Shot, frame: u32, scene: &Scene, info: PictureInfo<'_>) -> Metadata {
+fn metadata(frame: &Frame<'_>, scene: &Scene, info: PictureInfo<'_>) -> Metadata {
     let worldline = &scene.worldlines[scene.camera.worldline];
     let camera = worldline.celerity;
     Metadata {
         software: Some(SOFTWARE.to_owned()),
-        comments: shot.shot.title.clone(),
-        frames_per_second: Some(shot.shot.fps),
+        comments: frame.title.map(str::to_owned),
+        frames_per_second: Some(frame.fps),
         // Camera space is the same for every projection. What describes a perspective alone is not
         // written: no `worldToNDC`, and the screen window that EXR demands stays at its default,
         // which by the standard is that of pictures without such a description.
@@ -129,12 +129,12 @@ fn metadata(shot: &Shot, frame: u32, scene: &Scene, info: PictureInfo<'_>) -> Me
             .map(|matrix| matrix.to_cols_array()),
         exposure_stops: Some(info.exposure_stops),
         samples_per_pixel: Some(info.samples),
-        frame: Some(frame),
+        frame: Some(frame.number),
         beta: Some(camera.beta().to_array()),
         lorentz_factor: Some(camera.lorentz_factor()),
-        time_s: Some(shot.shot.time.at(frame, shot.shot.frames)),
+        time_s: Some(frame.time_s),
         worldlines: scene.worldline_names.clone(),
-        shot: Some(still(shot, frame, info)),
+        shot: Some(still(frame, info)),
         fingerprint: info.fingerprint.map(str::to_owned),
         ..Metadata::default()
     }
@@ -143,8 +143,8 @@ fn metadata(shot: &Shot, frame: u32, scene: &Scene, info: PictureInfo<'_>) -> Me
 /// The shot that this frame alone is rendered again from, beside the original: what moves stands
 /// still, what was metered or asked for is written down. The size is the shot's own, as insets name
 /// its pixels: a picture of another size is rendered by the `--scale` that gives it.
-fn still(shot: &Shot, frame: u32, info: PictureInfo<'_>) -> String {
-    let mut still = shot.at(frame);
+fn still(frame: &Frame<'_>, info: PictureInfo<'_>) -> String {
+    let mut still = frame.alone();
     still.sensor.exposure = Exposure::Stops(Track::Constant(info.exposure_stops));
     still.image.samples = info.samples;
     still.sequence = Sequence::default();
@@ -152,7 +152,7 @@ fn still(shot: &Shot, frame: u32, info: PictureInfo<'_>) -> String {
 }
 
 /// The window, where a picture is not what an eye would see.
-fn window_nm(sensor: &Sensor) -> Option<[f64; 2]> {
+fn window_nm(sensor: Sensor) -> Option<[f64; 2]> {
     let eye = Sensor::default();
     ((sensor.color, sensor.window) != (eye.color, eye.window)).then_some(sensor.window)
 }

@@ -1,4 +1,4 @@
-//! Films exposed, a band of rows to a thread: each piece of a row is traced once, and shaded for
+//! Exposure of films, a band of rows per thread: each piece of a row is traced once, and shaded for
 //! every image.
 
 use super::band::{BAND, bands};
@@ -10,9 +10,10 @@ use crate::film::{Film, LeftOut};
 use crate::trace::Samples;
 use rayon::prelude::*;
 
-/// It was asked to stop.
-#[derive(Debug)]
-pub(super) struct Stopped;
+/// Rendering was asked to stop.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+#[error("stopped")]
+pub struct Stopped;
 
 /// What of the time went into what: the shares add up to 1.
 pub(super) struct Shares {
@@ -20,15 +21,15 @@ pub(super) struct Shares {
     pub(super) shade: f64,
 }
 
-/// What became of a band.
+/// Result of a band.
 struct Exposed {
-    /// Of tracing and of shading.
+    /// Seconds of tracing and of shading.
     seconds: [f64; 2],
-    /// Of each image.
+    /// For each image, its light that was not followed.
     left_out: Vec<LeftOut>,
 }
 
-/// Exposes a film for each of the images, whose trees are those of the first.
+/// Exposes a film for each of the images, which all use the trees of the first.
 pub(super) fn expose(
     images: &[Views<'_>],
     samples: &Samples,
@@ -83,7 +84,7 @@ pub(super) fn expose(
     })
 }
 
-/// The views of a row, of which the first traces.
+/// The views of a row. The first one traces.
 fn of_row<'a, 'b>(images: &'a [Views<'b>], row: u32) -> Vec<&'a View<'b>> {
     let views: Vec<&View<'_>> = images.iter().map(|image| image.of_row(row)).collect();
     debug_assert!(

@@ -10,17 +10,19 @@ use glam::DVec3;
 pub struct LabPath {
     /// The emission event.
     pub emission: Event,
-    /// Length, metres.
+    /// Length, meters.
     pub distance: f64,
 }
 
 impl LabPath {
-    /// The path to the first surface of a camera ray of unit `direction` (camera's rest frame).
+    /// The path to the first surface that a camera ray of unit `direction` (camera's rest frame)
+    /// meets.
     pub fn new(view: &View<'_>, surface: &Surface, direction: DVec3) -> Self {
         const LAB: usize = 0;
         let spacetime = view.spacetime();
         let camera = spacetime.camera_event(LAB);
-        // As light that travels from the surface to the camera: no cancellation far away.
+        // Followed as light that travels from the surface to the camera, which does not cancel far
+        // away.
         let light = spacetime
             .link(LAB, view.scene().camera.worldline)
             .light(-direction);

@@ -1,58 +1,55 @@
 //! How many bounces leave out next to nothing of an image's light.
 
-use super::view::{Standings, Views};
+use super::view::{RelativeMotions, Views};
 use super::{Member, View, channels};
 use crate::accel::Aggregate;
 use crate::film::{Channels, Film, LeftOut, SILENT};
-use crate::plan::MotionError;
 use crate::shade::ShadeScratch;
 use crate::shot::MOST_BOUNCES;
 use crate::trace::{Root, Scratch, ShadeTrees, Tracer};
 use rayon::prelude::*;
 
-/// Rays on a side of the sample that deeper images are judged by; and of a second one, where nothing
-/// was cut of the first.
+/// Rays on a side of the sample by which deeper images are judged; and of a second, finer one, for
+/// images in which the first misses what was cut.
 const SIDES: [u32; 2] = [64, 256];
 
-/// What of [`SILENT`] an image judged by a sample of its rays may leave out.
+/// Share of [`SILENT`] that an image judged by a sample of its rays may be missing.
 const MARGIN: f64 = 0.8;
 
-/// How deep an image is to be followed.
+/// Depth to which an image has to be followed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Enough {
-    /// So many bounces leave out no more than [`SILENT`] of its light.
+    /// This many bounces miss no more than [`SILENT`] of its light.
     Bounces(u32),
-    /// Not even the most that there are: what is left out is too faint, or branches too often.
+    /// Not even the largest number is enough: the missing light is too faint, or branches too
+    /// often.
     None,
 }
 
 /// The least bounces with which an image of `size` pixels would leave out no more than [`SILENT`],
 /// being one of which `left_out` was left out. Found by a sample of its rays, followed deeper.
-///
-/// # Errors
-/// Where a worldline has no velocity in this frame.
 pub fn enough_bounces(
     member: Member<'_>,
     stage: &Aggregate,
     size: [u32; 2],
     left_out: &LeftOut,
-) -> Result<Enough, MotionError> {
-    let views = Views::new(member, stage, size[1], &Standings::default())?;
-    let own = member.shot.effects.bounces;
+) -> Enough {
+    let views = Views::new(member, stage, size[1], &RelativeMotions::default());
+    let own = member.frame.effects.bounces;
     for side in SIDES {
         let sample = Sample {
             views: &views,
-            channels: channels(member.shot),
+            channels: channels(member.frame.sensor.color),
             size,
             side,
         };
         let here = sample.share(own);
         if here > 0.0 {
             let most = here * (SILENT * MARGIN / left_out.share()).min(1.0);
-            return Ok(least(own, |bounces| sample.share(bounces) <= most));
+            return least(own, |bounces| sample.share(bounces) <= most);
         }
     }
-    Ok(Enough::None)
+    Enough::None
 }
 
 /// How much of an image's light was not followed, and how many bounces would do; None if it is little.
@@ -63,13 +60,13 @@ pub fn left_out_warning(member: Member<'_>, stage: &Aggregate, film: &Film) -> O
     }
     let enough = enough_bounces(member, stage, [film.width, film.height], &film.left_out);
     let what_would_do = match enough {
-        Ok(Enough::Bounces(bounces)) => {
+        Enough::Bounces(bounces) => {
             let silent = percent(SILENT);
             format!("effects.bounces = {bounces} would leave out less than {silent}")
         }
-        _ => format!(
+        Enough::None => format!(
             "no number of effects.bounces would do, as it is too faint for accuracy.cutoff = {} or goes on for ever",
-            member.shot.accuracy.cutoff
+            member.frame.accuracy.cutoff
         ),
     };
     Some(format!(
@@ -78,17 +75,17 @@ pub fn left_out_warning(member: Member<'_>, stage: &Aggregate, film: &Film) -> O
     ))
 }
 
-/// Two digits: `1.6 %`.
+/// A share with two digits, such as `1.6 %`.
 fn percent(share: f64) -> String {
     let value = 100.0 * share;
     let decimals = if value < 9.95 { 1 } else { 0 };
     format!("{value:.decimals$} %")
 }
 
-/// The least number above `own` that will do; more do where fewer do.
+/// The least sufficient number above `own`; every larger number is sufficient too.
 pub(crate) fn least(own: u32, will_do: impl Fn(u32) -> bool) -> Enough {
     let (mut fewer, mut step) = (own, 1);
-    // Deep trees take long, so it begins with those little deeper.
+    // Deep trees take long, so the search starts with slightly deeper ones.
     let mut enough = loop {
         let more = (fewer + step).min(MOST_BOUNCES);
         if more <= fewer {
@@ -110,7 +107,7 @@ pub(crate) fn least(own: u32, will_do: impl Fn(u32) -> bool) -> Enough {
     Enough::Bounces(enough)
 }
 
-/// Light of a ray by its channels: what [`LeftOut`] counts.
+/// Light of a ray by its channels, as [`LeftOut`] counts it.
 #[inline(always)]
 pub(super) fn light(channels: Channels, values: [f64; 3]) -> f64 {
     match channels {
@@ -119,7 +116,7 @@ pub(super) fn light(channels: Channels, values: [f64; 3]) -> f64 {
     }
 }
 
-/// Some of an image's rays: those through the middles of pixels on a grid.
+/// A sample of an image's rays: those through the centers of pixels on a grid.
 struct Sample<'a> {
     views: &'a Views<'a>,
     channels: Channels,
@@ -128,7 +125,7 @@ struct Sample<'a> {
 }
 
 impl Sample<'_> {
-    /// What of its light is left out that many bounces deep.
+    /// Share of its light that this many bounces miss.
     fn share(&self, bounces: u32) -> f64 {
         let [columns, rows] = self.size.map(|pixels| self.side.min(pixels));
         let row = |row: u32| {
@@ -150,7 +147,7 @@ impl Sample<'_> {
         sums.share()
     }
 
-    /// Light of a ray, and what was cut of it.
+    /// Light of a ray, and the share of it that was cut.
     fn look(
         &self,
         view: &View<'_>,
@@ -179,7 +176,7 @@ struct Memory {
     shading: ShadeScratch,
 }
 
-/// What rays are traced through at least so deep; not at all where mirrors and glass are off.
+/// A tracer with at least this depth; unchanged if mirrors and glass are off.
 pub(crate) fn deeper<'a>(view: &'a View<'_>, bounces: u32) -> Tracer<'a> {
     let tracer = view.tracer();
     Tracer {
@@ -191,7 +188,7 @@ pub(crate) fn deeper<'a>(view: &'a View<'_>, bounces: u32) -> Tracer<'a> {
     }
 }
 
-/// The pixel in the middle of one of so many equal parts.
+/// The pixel in the middle of one of this many equal parts.
 fn middle(part: u32, parts: u32, pixels: u32) -> u32 {
     let [part, parts, pixels] = [part, parts, pixels].map(u64::from);
     ((2 * part + 1) * pixels / (2 * parts)) as u32

@@ -1,18 +1,18 @@
-//! Exposure metered on a small render of frame 1.
+//! Metering: exposure from a small render of frame 1.
 
 use super::{Options, render};
 use crate::accel::Aggregate;
 use crate::film::auto_exposure;
-use crate::plan::MotionError;
+use crate::frame::Frame;
 use crate::scene::{Library, Scene};
 use crate::shot::{LARGEST_SIDE, Mistakes, Shot};
 use crate::trace::build_aggregate;
 
 /// What metering found, and what it built on the way: frame 1, for whoever renders it next.
 pub struct Metered {
-    /// Exposure in stops; None where all is black.
+    /// Exposure in stops; None if the image is black.
     pub stops: Option<f64>,
-    /// Frame 1.
+    /// The scene of frame 1.
     pub scene: Scene,
     /// Its bodies.
     pub stage: Aggregate,
@@ -23,9 +23,10 @@ pub struct Metered {
 /// # Errors
 /// Mistakes of frame 1.
 pub fn metered_exposure(shot: &Shot, library: &Library) -> Result<Metered, Mistakes> {
-    let scene = Scene::resolve(shot, library, 1, None)?;
+    let frame = Frame::new(shot, 1)?;
+    let scene = Scene::resolve(&frame, library, None)?;
     let stage = build_aggregate(&scene.geometry, None);
-    let [width, height] = shot.image.size.map(f64::from);
+    let [width, height] = frame.image.size.map(f64::from);
     let rows = (METER_WIDTH * height / width)
         .round()
         .clamp(1.0, LARGEST_SIDE.into());
@@ -35,8 +36,7 @@ pub fn metered_exposure(shot: &Shot, library: &Library) -> Result<Metered, Mista
         samples: 1,
         layers: Vec::new(),
     };
-    let film = render(shot, 1, &scene, &stage, &options, &|_| ())
-        .map_err(|error| motion_mistake(shot, &error))?;
+    let film = render(&frame, &scene, &stage, &options, &|_| ());
     Ok(Metered {
         stops: auto_exposure(&film),
         scene,
@@ -44,14 +44,5 @@ pub fn metered_exposure(shot: &Shot, library: &Library) -> Result<Metered, Mista
     })
 }
 
-/// Width of the render that exposure is metered on, pixels.
+/// Width of the render for metering, pixels.
 const METER_WIDTH: f64 = 160.0;
-
-/// A velocity that fails between keys, as a mistake of the shot.
-pub fn motion_mistake(shot: &Shot, error: &MotionError) -> Mistakes {
-    let key = format!("worldline.{}.velocity", error.worldline);
-    Mistakes::new(
-        &shot.places,
-        vec![shot.places.mistake(&key, error.to_string(), None)],
-    )
-}

@@ -1,4 +1,4 @@
-//! Pixels: their rays traced, shaded and averaged, a piece of a row at a time.
+//! Pixels: rays traced, shaded and averaged, a piece of a row at a time.
 
 use super::band::Part;
 use super::expose::Stopped;
@@ -13,14 +13,15 @@ use std::ops::Range;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 
-/// Rays that are boosted and traced together: their scratch memory stays in the second cache.
+/// Number of rays that are traced together, so that their scratch memory stays in the second-level
+/// cache.
 const RAYS: u32 = 2048;
-/// The same where each ray may grow a tree of a thousand nodes, some 100 bytes each.
+/// The same if each ray may grow a tree of a thousand nodes of about 100 bytes.
 const RAYS_WITH_TREES: u32 = 256;
-/// Rays that are shaded before it is looked whether to stop: milliseconds even by quadrature.
+/// Number of rays shaded between two checks for a stop: milliseconds even by quadrature.
 const RAYS_BETWEEN_LOOKS: usize = 64;
-/// Most lamps seen from the surfaces that rays traced together meet, so that with ten thousand of
-/// them, too, it takes milliseconds.
+/// Number of pairs of surface and lamp among rays traced together at most, so that a check for a
+/// stop comes after milliseconds even with ten thousand lamps.
 const LAMPS: usize = 1 << 16;
 
 /// A row of pixels.
@@ -32,7 +33,7 @@ pub(super) struct Row<'a> {
 }
 
 impl Row<'_> {
-    /// The direction of sample `index` of pixel `x`, where the camera looks anywhere in it.
+    /// The direction of sample `index` of pixel `x`; None if the projection has no ray there.
     #[inline(always)]
     fn looks_along(&self, view: &View<'_>, x: u32, index: u32) -> Option<DVec3> {
         let [width, height] = [self.options.width, self.options.height].map(f64::from);
@@ -44,12 +45,12 @@ impl Row<'_> {
         view.scene().camera.looks_along(point)
     }
 
-    /// Where pixel `x` stands in its band.
+    /// Index of pixel `x` in its band.
     fn place(&self, x: u32) -> usize {
         self.in_band * self.options.width as usize + x as usize
     }
 
-    /// Which of the `rays` of pixel `x` belongs to a sample of theirs, if that one has a ray.
+    /// The index, among the `rays` of pixel `x`, of the ray of one of their samples, if it has one.
     fn ray_of(
         &self,
         view: &View<'_>,
@@ -61,12 +62,13 @@ impl Row<'_> {
         if rays.len() == samples.len() {
             return Some(rays.start + before.len());
         }
-        // Few pixels are at the edge of what is seen: the camera is asked again which samples lack.
+        // Few pixels are at the edge of a projection: the camera is asked again which samples have
+        // no ray.
         let has_ray = |&index: &u32| self.looks_along(view, x, index).is_some();
         has_ray(&sample).then(|| rays.start + before.filter(has_ray).count())
     }
 
-    /// The sample of pixel `x` nearest to its centre, whose surface the layers describe.
+    /// The sample of pixel `x` nearest to its center, whose surface the layers describe.
     fn central_sample(&self, x: u32) -> u32 {
         let off = |index: u32| {
             let [dx, dy] = self.samples.position(x, self.number, index);
@@ -78,7 +80,7 @@ impl Row<'_> {
     }
 }
 
-/// Samples that are traced together, and then shaded for each image: all those of some pixels of a
+/// Samples that are traced together and then shaded for each image: all those of some pixels of a
 /// row, or a part of those of one.
 struct Piece {
     pixels: Range<u32>,
@@ -86,7 +88,7 @@ struct Piece {
 }
 
 impl Piece {
-    /// The pieces of a row of `width` pixels, of at most so many rays each.
+    /// The pieces of a row of `width` pixels, of at most `rays` rays each.
     fn of_row(width: u32, samples: u32, rays: u32) -> impl Iterator<Item = Self> {
         let pixels = (rays / samples).max(1);
         (0..width).step_by(pixels as usize).flat_map(move |first| {
@@ -104,28 +106,28 @@ impl Piece {
     }
 }
 
-/// One thread's memory.
+/// Scratch memory of one thread.
 #[derive(Default)]
 pub(super) struct Painter {
-    /// Of the samples that see something, pixel by pixel.
+    /// Directions of the samples that have a ray, pixel by pixel.
     directions: Vec<DVec3>,
-    /// The pixels of a piece: their columns, and which of the directions are theirs.
+    /// The pixels of a piece: their columns, and the range of their directions.
     pixels: Vec<(u32, Range<usize>)>,
     scratch: Scratch,
     trees: ShadeTrees,
     shading: ShadeScratch,
-    /// Of a pixel whose samples are not all in one piece: its light so far in each image, …
+    /// For a pixel whose samples are spread over several pieces, its light so far in each image.
     sums: Vec<[f64; 3]>,
-    /// … and which of its samples is nearest to its centre.
+    /// For the same pixel, its sample nearest to the center.
     central: u32,
     /// Seconds of tracing and of shading.
     pub(super) seconds: [f64; 2],
-    /// Where they are counted by phase, if anywhere.
+    /// Seconds by phase, if they are counted.
     pub(super) lap: Option<Lap>,
 }
 
 impl Painter {
-    /// Renders a row of images that share its trees, those of the first.
+    /// Renders a row of images that all use the trees of the first.
     pub(super) fn paint(
         &mut self,
         views: &[&View<'_>],
@@ -180,7 +182,7 @@ impl Painter {
         tracer.trace(&self.directions, &mut self.scratch, &mut self.trees);
     }
 
-    /// Writes the means over all samples of each pixel: those that have no ray are black.
+    /// Writes the mean over all samples of each pixel; samples without a ray are black.
     fn shade(
         &mut self,
         (image, view, part): (usize, &View<'_>, &mut Part<'_>),
@@ -209,7 +211,7 @@ impl Painter {
                 }
             }
             if piece.samples.end == count {
-                // What f32 cannot hold is counted when the film is developed.
+                // Values that f32 cannot hold are counted when the film is developed.
                 part.left_out.add_rays(count, light(part.channels, sum));
                 part.xyz[row.place(*x)] = sum.map(|v| (v / f64::from(count)) as f32);
             } else {
@@ -237,7 +239,7 @@ impl Painter {
         }
     }
 
-    /// Writes what the layers say of the surface that a ray meets first, if any.
+    /// Writes the layers for the first surface that a ray meets, if any.
     fn write_surface(&self, view: &View<'_>, ray: usize, at: usize, part: &mut Part<'_>) {
         let Some(Node {
             seen: Seen::Surface(surface),
@@ -250,7 +252,7 @@ impl Painter {
         let path = LabPath::new(view, surface, self.directions[ray]);
         for (layer, values) in &mut part.layers {
             values[at] = match layer {
-                // On a covered pixel it is above 0, also where f32 is at its end.
+                // On a covered pixel it is above 0, even at the end of f32's range.
                 Layer::Doppler => doppler.max(f64::from(f32::MIN_POSITIVE)),
                 Layer::Distance => path.distance,
                 Layer::EmissionTime => path.emission.t,
@@ -263,7 +265,7 @@ impl Painter {
     }
 }
 
-/// How many rays are traced together.
+/// Number of rays that are traced together.
 fn rays_at_once(view: &View<'_>) -> u32 {
     let most = if view.branches() {
         RAYS_WITH_TREES

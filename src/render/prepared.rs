@@ -1,9 +1,8 @@
-//! Shots read with all files that they name, checked frame by frame, and how they are exposed.
+//! Shots read with all files that they name and checked frame by frame; and their exposure.
 
 use super::metered_exposure;
-use super::shifts::refuse_shifted_numbers;
 use crate::accel::Aggregate;
-use crate::plan;
+use crate::frame::{Frame, Frames, refuse_shifted_rgb};
 use crate::scene::{Library, Scene};
 use crate::shade::{Settings, Unresolved, unresolved};
 use crate::shot::{self, Exposure, Mistakes, Shot};
@@ -15,65 +14,72 @@ use std::path::Path;
 pub struct Prepared {
     /// The shot.
     pub shot: Shot,
-    /// What it reads from other files.
+    /// The files that it names.
     pub library: Library,
 }
 
 impl Prepared {
-    /// Reads a shot and everything it names, and resolves every frame.
+    /// Reads a shot and everything that it names, and resolves every frame.
     ///
     /// # Errors
-    /// All its mistakes.
+    /// All mistakes of the shot.
     pub fn read(path: &Path) -> Result<Self, Mistakes> {
         let shot = shot::load(path)?;
         let frames = 1..=shot.shot.frames;
         Self::new(shot, frames)
     }
 
-    /// Reads everything a shot names, and resolves the given frames.
+    /// Reads everything that a shot names, and resolves the given frames.
     ///
     /// # Errors
-    /// All its mistakes.
+    /// All mistakes of the shot.
     pub fn new(shot: Shot, frames: impl Iterator<Item = u32>) -> Result<Self, Mistakes> {
         let library = Library::load(&shot)?;
         let frames: Vec<u32> = frames.collect();
-        let wrong = |frame: &u32| Scene::check(&shot, &library, *frame).err();
+        let wrong = frames.par_iter().map_init(
+            || Frames::new(&shot),
+            |all, number| {
+                let frame = all.at(*number);
+                frame.and_then(|frame| Scene::check(frame, &library)).err()
+            },
+        );
         // The first, however many threads look.
-        if let Some(mistakes) = frames.par_iter().find_map_first(wrong) {
+        if let Some(mistakes) = wrong.find_map_first(|mistakes| mistakes) {
             return Err(mistakes);
         }
-        refuse_shifted_numbers(&shot)?;
+        refuse_shifted_rgb(&shot)?;
         Ok(Self { shot, library })
     }
 
-    /// Materials and lamps whose bands the sensor's wavelengths cannot tell apart, by the first, the
-    /// middle or the last frame, whichever is the first that calls for Doppler shifts.
+    /// Materials and lamps with bands that the sensor's wavelengths cannot resolve, by the first,
+    /// the middle or the last frame: the first of these with a Doppler shift.
     pub fn unresolved(&self) -> Vec<Unresolved> {
         let frames = self.shot.shot.frames;
         let called = [1, frames.div_ceil(2), frames]
             .into_iter()
-            .find_map(|frame| {
-                let called = plan::called(&self.shot, frame, &self.shot.effects).ok()?;
+            .find_map(|number| {
+                let frame = Frame::new(&self.shot, number).ok()?;
+                let called = frame.active_effects(&frame.effects);
                 called.doppler.then_some((frame, called))
             });
         let Some((frame, called)) = called else {
             return Vec::new();
         };
-        let Ok(scene) = Scene::resolve(&self.shot, &self.library, frame, None) else {
+        let Ok(scene) = Scene::resolve(&frame, &self.library, None) else {
             return Vec::new();
         };
         let settings = Settings {
             called: &called,
-            accuracy: &self.shot.accuracy,
-            sensor: &self.shot.sensor,
+            accuracy: &frame.accuracy,
+            sensor: &frame.sensor,
             reach: 1.0,
             lamp_reach: 1.0,
         };
         unresolved(&scene, &settings)
     }
 
-    /// What the shot's files ask for and the picture will not show, each once, and what its sensor
-    /// cannot tell apart.
+    /// Warnings: content of the shot's files that the image will not show, each once, and bands
+    /// that its sensor cannot resolve.
     pub fn warnings(&self) -> Vec<String> {
         let seen: IndexSet<(&Path, String)> = self.library.warnings(&self.shot).collect();
         let line = |(file, warning): (&Path, String)| format!("{}: {warning}", file.display());
@@ -89,7 +95,7 @@ impl Prepared {
     /// Mistakes of frame 1.
     pub fn exposure(&self) -> Result<(Exposing, Option<(Scene, Aggregate)>), Mistakes> {
         match &self.shot.sensor.exposure {
-            Exposure::Stops(stops) => Ok((Exposing::Authored(stops.clone()), None)),
+            Exposure::Stops(_) => Ok((Exposing::Authored, None)),
             Exposure::Auto(_) => {
                 let metered = metered_exposure(&self.shot, &self.library)?;
                 let exposing = metered.stops.map_or(Exposing::Black, Exposing::Metered);
@@ -99,22 +105,22 @@ impl Prepared {
     }
 }
 
-/// How a shot's frames are exposed.
+/// The exposure of a shot's frames.
 #[derive(Debug, Clone)]
 pub enum Exposing {
     /// As its author wrote.
-    Authored(shot::Track<f64>),
+    Authored,
     /// As metered on frame 1, in stops.
     Metered(f64),
-    /// Frame 1 was metered and is all black: 0 stops.
+    /// 0 stops, because frame 1 was metered and is black.
     Black,
 }
 
 impl Exposing {
     /// Stops in one frame.
-    pub fn stops(&self, frame: u32, frames: u32) -> f64 {
+    pub fn stops(&self, frame: &Frame<'_>) -> f64 {
         match self {
-            Self::Authored(track) => track.at(frame, frames),
+            Self::Authored => frame.exposure_stops.unwrap_or_default(),
             Self::Metered(stops) => *stops,
             Self::Black => 0.0,
         }

@@ -1,34 +1,34 @@
-//! Where the time of an image goes, for studies: seconds by phase, summed over threads.
+//! Time of an image by phase, for studies.
 
 use crate::trace::{Clock, Phase};
 use std::sync::Mutex;
 use std::sync::PoisonError;
 
-/// Seconds of one image by phase; those within an image are summed over its threads.
+/// Seconds of one image by phase. Those of phases within an image are summed over its threads.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Seconds {
-    /// Curves, tables and links between worldlines made ready.
+    /// Curves, tables, and links between worldlines.
     pub prepare: f64,
-    /// Camera rays of samples.
+    /// Directions of camera rays.
     pub aim: f64,
-    /// Camera rays to the rest frames of bodies.
+    /// Boosts of camera rays into the rest frames of bodies.
     pub boost: f64,
-    /// Camera rays through the bodies of each rest frame.
+    /// Camera rays against the bodies of each rest frame.
     pub traverse: f64,
     /// Rays from surfaces to lamps.
     pub shadow: f64,
-    /// Surface events, lamps seen from there, and what mirrors and glass show.
+    /// Surface events, lamps as seen from there, branches of mirrors and glass.
     pub surfaces: f64,
-    /// Shade trees to light.
+    /// From shade trees to light.
     pub shade: f64,
 }
 
-/// Gathers [`Seconds`] from all threads of an image.
+/// Collects [`Seconds`] from all threads of an image.
 #[derive(Debug, Default)]
 pub struct Profile(Mutex<Seconds>);
 
 impl Profile {
-    /// What has been gathered.
+    /// The seconds so far.
     pub fn seconds(&self) -> Seconds {
         *self.0.lock().unwrap_or_else(PoisonError::into_inner)
     }
@@ -38,7 +38,7 @@ impl Profile {
     }
 }
 
-/// One thread's part.
+/// Seconds of one thread.
 #[derive(Debug, Default)]
 pub(super) struct Lap {
     pub(super) clock: Clock,

@@ -1,89 +1,69 @@
-//! Several images in one: those that share shade trees are traced once and shaded each.
+//! Several images at once: those that share shade trees are traced once and shaded separately.
 
 use super::band::empty_film;
 use super::expose::{Stopped, expose};
 use super::profile::Profile;
-use super::view::{Standings, Views};
+use super::view::{RelativeMotions, Views};
 use super::{Options, channels};
 use crate::accel::Aggregate;
 use crate::film::Film;
-use crate::plan::MotionError;
+use crate::frame::Frame;
 use crate::scene::Scene;
-use crate::shot::Shot;
 use crate::trace::Samples;
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 
-/// Most memory of the shaders of images that are traced together, bytes: some MB each over a few
-/// dozen lamps and materials, 100 MB where there are as many as are tabulated. Where there is more,
-/// the trace is repeated.
+/// Memory of the shaders of images that are traced together at most, bytes: some MB each for a few
+/// dozen lamps and materials, 100 MB for as many as are tabulated. If more is needed, the trace is
+/// repeated.
 const SHADERS: usize = 256 << 20;
 
 /// One of the images that share a trace. They may be of different shots.
 #[derive(Clone, Copy)]
 pub struct Member<'a> {
-    /// The shot.
-    pub shot: &'a Shot,
-    /// Number of the frame.
-    pub frame: u32,
-    /// The frame's scene: as the other members', but for what shading alone reads.
+    /// The frame.
+    pub frame: &'a Frame<'a>,
+    /// Its scene: as the other members', but for what shading alone reads.
     pub scene: &'a Scene,
 }
 
-/// Who is told of the work, and who may stop it.
+/// Observer of the work: receives progress, and can stop it.
 #[derive(Clone, Copy)]
 pub struct Watch<'a> {
-    /// Told of finished rays, each counted once for every image, from any thread.
+    /// Called with the number of finished rays, each counted once for every image, from any thread.
     pub done: &'a (dyn Fn(u64) + Sync),
-    /// Once true, the work ends within milliseconds.
+    /// If it becomes true, the work ends within milliseconds.
     pub stop: &'a AtomicBool,
 }
 
-/// Images rendered together.
+/// Images rendered together, and the time that they took.
 #[derive(Debug, Default)]
 pub struct Together {
-    /// One for each member.
+    /// One film for each member.
     pub films: Vec<Film>,
-    /// Seconds of the clock on the wall: curves and links made ready,
+    /// Wall-clock seconds of preparing: curves and links.
     pub prepare: f64,
-    /// rays traced,
+    /// Wall-clock seconds of tracing.
     pub trace: f64,
-    /// shade trees to light, of all images. The three add up to the whole.
+    /// Wall-clock seconds of shading all images. The three add up to the whole.
     pub shade: f64,
 }
 
-/// Why there are no images.
-#[derive(Debug, thiserror::Error)]
-pub enum TogetherError {
-    /// A worldline has no velocity in a frame.
-    #[error(transparent)]
-    Motion(#[from] MotionError),
-    /// It was asked to stop.
-    #[error("stopped")]
-    Stopped,
-}
-
-impl From<Stopped> for TogetherError {
-    fn from(Stopped: Stopped) -> Self {
-        Self::Stopped
-    }
-}
-
-/// Renders images that share shade trees ([`FrameKey::trace`](crate::plan::FrameKey) equal), to the
+/// Renders images that share shade trees ([`FrameFingerprint::trace`](crate::frame::FrameFingerprint) equal), to the
 /// same bytes as each alone.
 ///
 /// Trees are those of the first member. Beside the films ([`film_bytes`](super::film_bytes)) and a
 /// bounded part for curves and tables, memory does not grow with the number of members.
 ///
 /// # Errors
-/// Where a worldline has no velocity, or when asked to stop.
+/// When asked to stop.
 pub fn render_together(
     members: &[Member<'_>],
     stage: &Aggregate,
     options: &Options,
     watch: Watch<'_>,
-) -> Result<Together, TogetherError> {
+) -> Result<Together, Stopped> {
     render_all(members, stage, options, watch, None)
 }
 
@@ -94,14 +74,12 @@ pub(super) fn render_one(
     options: &Options,
     done: &(dyn Fn(u64) + Sync),
     profile: Option<&Profile>,
-) -> Result<Film, MotionError> {
+) -> Film {
     let stop = &AtomicBool::new(false);
-    let rendered = match render_all(&[member], stage, options, Watch { done, stop }, profile) {
-        Err(TogetherError::Motion(error)) => return Err(error),
-        rendered => rendered.expect("nobody else holds what would stop it"),
-    };
+    let rendered = render_all(&[member], stage, options, Watch { done, stop }, profile)
+        .expect("nobody else holds what would stop it");
     let film = rendered.films.into_iter().next();
-    Ok(film.expect("each member has a film"))
+    film.expect("each member has a film")
 }
 
 fn render_all(
@@ -110,19 +88,19 @@ fn render_all(
     options: &Options,
     watch: Watch<'_>,
     profile: Option<&Profile>,
-) -> Result<Together, TogetherError> {
+) -> Result<Together, Stopped> {
     let mut together = Together::default();
     let Some(first) = members.first() else {
         return Ok(together);
     };
-    let samples = Samples::new(options.samples, first.shot.image.filter);
+    let samples = Samples::new(options.samples, first.frame.image.filter);
     let mut rest = members;
     while !rest.is_empty() {
         let begun = Instant::now();
         let group = prepare(rest, stage, options, watch.stop)?;
         let (now, later) = rest.split_at(group.len());
         rest = later;
-        let film = |member: &Member<'_>| empty_film(options, channels(member.shot));
+        let film = |member: &Member<'_>| empty_film(options, channels(member.frame.sensor.color));
         let mut films: Vec<Film> = now.iter().map(film).collect();
         let prepared = Instant::now();
         let shares = expose(&group, &samples, options, &mut films, watch, profile)?;
@@ -140,19 +118,19 @@ fn render_all(
     Ok(together)
 }
 
-/// Makes views of the first member and of as many more as may be held at once.
+/// Views of the first member and of as many more as memory allows at once.
 fn prepare<'a>(
     members: &[Member<'a>],
     stage: &'a Aggregate,
     options: &Options,
     stop: &AtomicBool,
-) -> Result<Vec<Views<'a>>, TogetherError> {
-    let standings = Standings::default();
+) -> Result<Vec<Views<'a>>, Stopped> {
+    let motions = RelativeMotions::default();
     let views = |member: &Member<'a>| {
         if stop.load(Ordering::Relaxed) {
-            return Err(TogetherError::Stopped);
+            return Err(Stopped);
         }
-        Ok(Views::new(*member, stage, options.height, &standings)?)
+        Ok(Views::new(*member, stage, options.height, &motions))
     };
     let Some((first, others)) = members.split_first() else {
         return Ok(Vec::new());

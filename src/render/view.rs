@@ -1,22 +1,22 @@
 //! One image under one set of effects: everything a ray needs.
 
-use super::{Member, rows, spliced};
+use super::Member;
 use crate::accel::Aggregate;
-use crate::plan::{self, Called, MotionError};
+use crate::frame::{ActiveEffects, Frame, Sensor};
 use crate::scene::{Material, Scene};
 use crate::shade::{Settings, Shader};
-use crate::shot::{Accuracy, Effects, Sensor, SensorColor, Shot, Spectra, Switch};
+use crate::shot::{Accuracy, Effects, SensorColor, Spectra, Switch};
 use crate::trace::{Spacetime, Tracer};
 use std::ops::Range;
 use std::sync::{Arc, OnceLock};
 
-/// One image under one set of effects: everything a ray needs.
+/// One image under one set of effects: everything that a ray needs.
 pub struct View<'a> {
     scene: &'a Scene,
     stage: &'a Aggregate,
     /// What is simulated.
-    pub called: Called,
-    standing: Arc<Standing>,
+    pub effects: ActiveEffects,
+    motion: Arc<RelativeMotion>,
     shader: Shader,
     /// Made when first asked for.
     curves: OnceLock<Shader>,
@@ -27,34 +27,30 @@ pub struct View<'a> {
 }
 
 impl<'a> View<'a> {
-    /// Prepares the image `frame` of a shot under the author's `switches`.
-    ///
-    /// # Errors
-    /// Where a worldline has no velocity in this frame.
+    /// Prepares a frame's image under the author's `switches`: the frame's own effects, or those of a
+    /// splice.
     pub fn new(
-        shot: &Shot,
-        frame: u32,
+        frame: &Frame<'_>,
         switches: &Effects,
         scene: &'a Scene,
         stage: &'a Aggregate,
-    ) -> Result<Self, MotionError> {
-        Self::sharing(&Standings::default(), shot, frame, switches, scene, stage)
+    ) -> Self {
+        Self::sharing(&RelativeMotions::default(), frame, switches, scene, stage)
     }
 
-    /// [`View::new`] among images in which worldlines stand to each other as `standings` has it.
+    /// [`View::new`] among images in which worldlines stand to each other as `motions` has it.
     fn sharing(
-        standings: &Standings,
-        shot: &Shot,
-        frame: u32,
+        motions: &RelativeMotions,
+        frame: &Frame<'_>,
         switches: &Effects,
         scene: &'a Scene,
         stage: &'a Aggregate,
-    ) -> Result<Self, MotionError> {
-        let called = plan::called(shot, frame, switches)?;
+    ) -> Self {
+        let effects = frame.active_effects(switches);
         // Where nothing moves the links are translations, which cost nothing; light still takes
         // its time to the camera.
-        let standing = standings.under(switches.geometry, scene, stage);
-        let bounces = if called.mirror || called.refraction {
+        let motion = motions.under(switches.geometry, scene, stage);
+        let bounces = if effects.mirror || effects.refraction {
             switches.bounces
         } else {
             0
@@ -62,25 +58,25 @@ impl<'a> View<'a> {
         // Between two bodies D is at most the square of what it is between either and the camera.
         let hops = 1.0 + 2.0 * f64::from(bounces);
         let settings = Settings {
-            called: &called,
-            accuracy: &shot.accuracy,
-            sensor: &shot.sensor,
-            reach: hops * standing.to_camera,
-            lamp_reach: standing.to_lamps,
+            called: &effects,
+            accuracy: &frame.accuracy,
+            sensor: &frame.sensor,
+            reach: hops * motion.to_camera,
+            lamp_reach: motion.to_lamps,
         };
         let shader = Shader::new(scene, &settings);
         let reaches = [settings.reach, settings.lamp_reach];
-        Ok(Self {
+        Self {
             reaches,
             scene,
             stage,
-            called,
-            standing,
+            effects,
+            motion,
             shader,
             curves: OnceLock::new(),
             bounces,
-            cutoff: shot.accuracy.cutoff,
-        })
+            cutoff: frame.accuracy.cutoff,
+        }
     }
 
     /// The scene.
@@ -93,16 +89,16 @@ impl<'a> View<'a> {
         &self.shader
     }
 
-    /// The shader of this image as the CIE's observer sees it, whatever the shot's sensor makes of
+    /// The shader of this image as the CIE's observer sees it, whatever the frame's sensor makes of
     /// its window.
-    pub fn eye(&self, shot: &Shot) -> Shader {
+    pub fn eye(&self, frame: &Frame<'_>) -> Shader {
         let [reach, lamp_reach] = self.reaches;
         let settings = Settings {
-            called: &self.called,
-            accuracy: &shot.accuracy,
+            called: &self.effects,
+            accuracy: &frame.accuracy,
             sensor: &Sensor {
                 color: SensorColor::Cie1931,
-                ..shot.sensor.clone()
+                ..frame.sensor
             },
             reach,
             lamp_reach,
@@ -112,16 +108,16 @@ impl<'a> View<'a> {
 
     /// The shader of curves over the sensor's own window, made once for all pixels that are asked
     /// about.
-    pub fn curves(&self, shot: &Shot) -> &Shader {
+    pub fn curves(&self, frame: &Frame<'_>) -> &Shader {
         self.curves
-            .get_or_init(|| self.shader_over(shot.sensor.window, shot.accuracy.wavelengths))
+            .get_or_init(|| self.shader_over(frame.sensor.window, frame.accuracy.wavelengths))
     }
 
-    /// A shader of this image over another band (nm), for curves rather than pictures: spectra are
-    /// read as their author wrote them, so that no baking shows at any wavelength or shift.
+    /// A shader of this image over another band (nm), for curves and not for images: spectra are
+    /// evaluated as their author wrote them, so that no baking shows at any wavelength or shift.
     pub fn shader_over(&self, window_nm: [f64; 2], wavelengths: u32) -> Shader {
         let settings = Settings {
-            called: &self.called,
+            called: &self.effects,
             accuracy: &Accuracy {
                 spectra: Spectra::Exact,
                 wavelengths,
@@ -140,7 +136,7 @@ impl<'a> View<'a> {
 
     /// How its worldlines stand to each other.
     pub fn spacetime(&self) -> &Spacetime {
-        &self.standing.spacetime
+        &self.motion.spacetime
     }
 
     /// Whether mirrors or glass are followed.
@@ -148,21 +144,21 @@ impl<'a> View<'a> {
         self.bounces > 0
     }
 
-    /// What rays are traced through.
+    /// The tracer for its rays.
     pub fn tracer(&self) -> Tracer<'_> {
         Tracer {
             scene: self.scene,
             aggregate: self.stage,
             spacetime: self.spacetime(),
-            shadows: self.called.shadows,
+            shadows: self.effects.shadows,
             bounces: self.bounces,
             cutoff: self.cutoff,
             clock: None,
         }
     }
 
-    /// Whether what tracing reads is the other's, as far as that is cheap to compare: not so where
-    /// images were put together that share no trace.
+    /// Whether tracing would give the same, as far as that is cheap to compare: false if images
+    /// were put together that do not share a trace.
     pub(super) fn traces_like(&self, other: &Self) -> bool {
         let of_scene = |view: &Self| {
             let scene = view.scene;
@@ -177,7 +173,7 @@ impl<'a> View<'a> {
         let mut materials = self.scene.materials.iter();
         let passing = materials.any(Material::passes_light_on);
         let branches = |view: &Self| passing.then_some((view.bounces, view.cutoff));
-        let shadows = |view: &Self| !view.scene.lights.is_empty() && view.called.shadows;
+        let shadows = |view: &Self| !view.scene.lights.is_empty() && view.effects.shadows;
         of_scene(self) == of_scene(other)
             && surfaces(self) == surfaces(other)
             && self.scene.worldlines == other.scene.worldlines
@@ -187,31 +183,31 @@ impl<'a> View<'a> {
 }
 
 /// How the worldlines of a scene stand to each other.
-struct Standing {
+struct RelativeMotion {
     spacetime: Spacetime,
     /// Largest |ln D| of any worldline to the camera's.
     to_camera: f64,
-    /// Largest |ln D| of any body to any lamp.
+    /// Largest |ln D| between any body and any lamp.
     to_lamps: f64,
 }
 
-/// [`Standing`] with light of finite speed and without, each made once for all images in which it
+/// [`RelativeMotion`] with light of finite speed and without, each made once for all images in which it
 /// is the same.
 #[derive(Default)]
-pub(super) struct Standings {
-    finite: OnceLock<Arc<Standing>>,
-    snapshot: OnceLock<Arc<Standing>>,
+pub(super) struct RelativeMotions {
+    finite: OnceLock<Arc<RelativeMotion>>,
+    snapshot: OnceLock<Arc<RelativeMotion>>,
 }
 
-impl Standings {
-    fn under(&self, geometry: Switch, scene: &Scene, stage: &Aggregate) -> Arc<Standing> {
+impl RelativeMotions {
+    fn under(&self, geometry: Switch, scene: &Scene, stage: &Aggregate) -> Arc<RelativeMotion> {
         let made = match geometry {
             Switch::Auto => &self.finite,
             Switch::Off => &self.snapshot,
         };
         let lamps = || scene.lights.iter().map(|light| light.worldline);
-        let standing = made.get_or_init(|| {
-            Arc::new(Standing {
+        let motion = made.get_or_init(|| {
+            Arc::new(RelativeMotion {
                 spacetime: Spacetime::new(scene, geometry == Switch::Auto),
                 to_camera: largest_rapidity(
                     scene,
@@ -224,7 +220,7 @@ impl Standings {
                     .fold(0.0, f64::max),
             })
         });
-        Arc::clone(standing)
+        Arc::clone(motion)
     }
 }
 
@@ -241,31 +237,29 @@ fn largest_rapidity(scene: &Scene, from: usize, to: impl Iterator<Item = usize>)
     to.map(rapidity).fold(0.0, f64::max) * (1.0 + 1e-9) + 1e-9
 }
 
-/// One image: its view, and those of the rows that splices cover.
+/// The views of one image: its own, and those of rows that splices cover.
 pub(super) struct Views<'a> {
     whole: View<'a>,
     splices: Vec<(Range<u32>, View<'a>)>,
 }
 
 impl<'a> Views<'a> {
-    /// Prepares an image of so many rows.
+    /// Prepares an image of `height` rows.
     pub(super) fn new(
         member: Member<'a>,
         stage: &'a Aggregate,
         height: u32,
-        standings: &Standings,
-    ) -> Result<Self, MotionError> {
-        let Member { shot, frame, scene } = member;
-        let view =
-            |switches: &Effects| View::sharing(standings, shot, frame, switches, scene, stage);
-        Ok(Self {
-            whole: view(&shot.effects)?,
-            splices: shot
-                .splice
-                .iter()
-                .map(|splice| Ok((rows(splice, height), view(&spliced(&shot.effects, splice))?)))
-                .collect::<Result<_, _>>()?,
-        })
+        motions: &RelativeMotions,
+    ) -> Self {
+        let Member { frame, scene } = member;
+        let view = |switches: &Effects| View::sharing(motions, frame, switches, scene, stage);
+        let splices = frame.splices.iter();
+        Self {
+            whole: view(&frame.effects),
+            splices: splices
+                .map(|splice| (splice.rows_of(height), view(&splice.effects)))
+                .collect(),
+        }
     }
 
     /// The view of a row.
@@ -277,7 +271,7 @@ impl<'a> Views<'a> {
             .map_or(&self.whole, |(_, view)| view)
     }
 
-    /// Memory of its tables, bytes.
+    /// Memory of its tables, in bytes.
     pub(super) fn bytes(&self) -> usize {
         let splices = self.splices.iter().map(|(_, view)| view);
         splices

@@ -1,9 +1,9 @@
 //! Bodies: meshes, and the placement of their instances in the rest frames of worldlines.
 
 use super::library::Library;
+use crate::frame::{Array, Model};
 use crate::model::Mesh;
-use crate::shot::{Array, Model, Scale, Shot};
-use glam::{DAffine3, DMat3, DQuat, DVec3, EulerRot, Vec3};
+use glam::{DAffine3, DVec3, Vec3};
 use std::sync::Arc;
 
 /// An instance of a mesh.
@@ -56,42 +56,32 @@ pub(super) struct Arrangement {
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Placing {
     pub(super) rest_from_model: DAffine3,
-    array: Option<([u32; 3], DVec3, bool)>,
+    array: Option<Array>,
 }
 
+/// A model without an array.
+const ONE: Array = Array {
+    count: [1; 3],
+    step: DVec3::ZERO,
+    centered: false,
+};
+
 impl Placing {
-    /// The placement of a model that is scaled, rotated (Rz·Ry·Rx), translated, then arrayed.
-    pub(super) fn new(model: &Model, frame: u32, frames: u32) -> Self {
-        let vector = |track: &Option<crate::shot::Track<[f64; 3]>>| {
-            track
-                .as_ref()
-                .map_or(DVec3::ZERO, |t| DVec3::from(t.at(frame, frames)))
-        };
-        let scale = match &model.scale {
-            None => DVec3::ONE,
-            Some(Scale::Uniform(scale)) => DVec3::splat(scale.at(frame, frames)),
-            Some(Scale::PerAxis(scale)) => DVec3::from(scale.at(frame, frames)),
-        };
-        let angles = vector(&model.rotate) * (std::f64::consts::PI / 180.0);
-        let turn = DQuat::from_euler(EulerRot::ZYX, angles.z, angles.y, angles.x);
-        let linear = DMat3::from_quat(turn) * DMat3::from_diagonal(scale);
-        let array = model.array.as_ref().map(
-            |Array {
-                 count,
-                 step,
-                 centered,
-             }| { (*count, DVec3::from(step.at(frame, frames)), *centered) },
-        );
-        let rest_from_model = DAffine3::from_mat3_translation(linear, vector(&model.translate));
+    /// Where a frame's model stands.
+    pub(super) fn new(model: &Model<'_>) -> Self {
         Self {
-            rest_from_model,
-            array,
+            rest_from_model: model.rest_from_model(),
+            array: model.array,
         }
     }
 
     /// Displacements of the copies of the array, x running fastest; a single zero without an array.
     pub(super) fn copies(&self) -> impl Iterator<Item = DVec3> + '_ {
-        let (count, step, centered) = self.array.unwrap_or(([1; 3], DVec3::ZERO, false));
+        let Array {
+            count,
+            step,
+            centered,
+        } = self.array.unwrap_or(ONE);
         let counts = DVec3::from(count.map(f64::from));
         let first = if centered {
             step * (counts - 1.0) / -2.0
@@ -238,12 +228,4 @@ fn number_of(known: &mut Vec<Arc<Mesh>>, mesh: &Arc<Mesh>) -> u32 {
             known.len() - 1
         });
     number as u32
-}
-
-/// The placements of all models of a shot in one image.
-pub(super) fn placings(shot: &Shot, frame: u32) -> Vec<Placing> {
-    shot.model
-        .iter()
-        .map(|model| Placing::new(model, frame, shot.shot.frames))
-        .collect()
 }

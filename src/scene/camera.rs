@@ -1,8 +1,8 @@
 //! The camera: an event and axes in the rest frame of its worldline.
 
 use super::projection::Projection;
+use crate::frame::{Aim, Frame};
 use crate::relativity::{Event, Worldline};
-use crate::shot::{Shot, Track};
 use glam::{DMat3, DMat4, DVec3};
 
 /// The camera at its exposure.
@@ -50,56 +50,37 @@ impl Camera {
 }
 
 impl Camera {
-    /// The shot's camera in one image; None if it looks at its own position.
+    /// The camera of a frame.
     ///
-    /// The exposure is the event of the camera's position at lab time `lab_time` (meters of light
-    /// travel).
-    pub(super) fn new(
-        shot: &Shot,
-        frame: u32,
-        (index, worldline): (usize, &Worldline),
-        lab_time: f64,
-    ) -> Option<Self> {
-        let camera = &shot.camera;
-        let vector = |track: &Option<Track<[f64; 3]>>| {
-            track
-                .as_ref()
-                .map(|t| DVec3::from(t.at(frame, shot.shot.frames)))
+    /// The exposure is the event of the camera's position at the frame's lab time.
+    pub(super) fn new(frame: &Frame<'_>) -> Self {
+        let camera = &frame.camera;
+        let (yaw, pitch) = match camera.aim {
+            Aim::Along { yaw_deg, pitch_deg } => (yaw_deg.to_radians(), pitch_deg.to_radians()),
+            Aim::At(point) => towards(point - camera.position),
         };
-        let degrees = |track: &Option<Track<f64>>| {
-            track
-                .as_ref()
-                .map_or(0.0, |t| t.at(frame, shot.shot.frames))
-        };
-        let position = vector(&camera.position).unwrap_or(DVec3::ZERO);
-        let (yaw, pitch) = match vector(&camera.look_at) {
-            None => (
-                degrees(&camera.yaw).to_radians(),
-                degrees(&camera.pitch).to_radians(),
-            ),
-            Some(target) => towards(target - position)?,
-        };
-        let yaw = yaw + degrees(&camera.pan).to_radians();
-        let pitch = pitch + degrees(&camera.tilt).to_radians();
-        let roll = degrees(&camera.roll).to_radians();
-        Some(Self {
-            worldline: index,
-            event: worldline.event_at_lab_time(position, lab_time),
+        let yaw = yaw + camera.pan_deg.to_radians();
+        let pitch = pitch + camera.tilt_deg.to_radians();
+        let roll = camera.roll_deg.to_radians();
+        let worldline = &frame.worldlines[camera.worldline].motion;
+        Self {
+            worldline: camera.worldline,
+            event: worldline.event_at_lab_time(camera.position, frame.lab_time),
             axes: axes(yaw, pitch, roll),
-            projection: Projection::new(shot, frame),
-        })
+            projection: Projection::new(frame),
+        }
     }
 }
 
 /// Yaw (about y, positive to the right of −z) and pitch (up) of a direction.
-fn towards(direction: DVec3) -> Option<(f64, f64)> {
+fn towards(direction: DVec3) -> (f64, f64) {
     let level = direction.x.hypot(direction.z);
     let yaw = if level > 0.0 {
         direction.x.atan2(-direction.z)
     } else {
         0.0
     };
-    (direction != DVec3::ZERO).then(|| (yaw, direction.y.atan2(level)))
+    (yaw, direction.y.atan2(level))
 }
 
 /// Right, up and back of a camera turned by yaw, then pitch, then roll (clockwise, as seen through
@@ -121,7 +102,9 @@ mod tests {
             origin: Event::new(0.0, DVec3::new(0.0, 0.0, 1.0)),
             ..Worldline::LAB
         };
-        (Camera::new(&shot, 1, (0, &lab), 0.0).unwrap(), lab)
+        let mut frame = Frame::new(&shot, 1).unwrap();
+        frame.worldlines[0].motion = lab;
+        (Camera::new(&frame), lab)
     }
 
     #[test]

@@ -1,8 +1,9 @@
 //! Lamps, each at rest in a worldline.
 
 use super::spectra::Spectra;
+use crate::frame::{self, Amount};
 use crate::model::{LUMENS_PER_WATT, Lamp, LampKind};
-use crate::shot::{self, LightKind, LightUnits, SpectrumValue};
+use crate::shot::{LightKind, LightUnits};
 use crate::spectrum::luminous_integral;
 use crate::spectrum::{Spectrum, SpectrumError};
 use glam::{DAffine3, DVec3};
@@ -96,34 +97,24 @@ pub(super) enum LightError {
 impl Light {
     /// A lamp of the shot.
     pub(super) fn authored(
-        light: &shot::Light,
-        number: usize,
-        worldline: usize,
+        light: &frame::Light<'_>,
         spectra: &Spectra<'_>,
     ) -> Result<Self, LightError> {
-        let spectrum = match &light.spectrum {
-            Some(value) => spectra.curve(value)?,
-            None => spectra.curve(&SpectrumValue::Name("D65".to_owned()))?,
-        };
-        let scale = match (&light.scale, &light.intensity) {
-            (Some(scale), _) => spectra.at(scale),
-            (None, intensity) => {
+        let spectrum = spectra.curve(light.spectrum)?;
+        let scale = match light.amount {
+            Amount::Spectral(scale) => scale,
+            Amount::Photometric(intensity) => {
                 let lumens = luminous_integral(&spectrum);
-                let intensity = intensity.as_ref().map_or(0.0, |i| spectra.at(i));
                 if !(lumens > 0.0 && (intensity / lumens).is_finite()) {
                     return Err(LightError::Dark);
                 }
                 intensity / lumens
             }
         };
-        let name = light
-            .name
-            .clone()
-            .unwrap_or_else(|| format!("light {}", number + 1));
         Ok(Self {
-            name,
-            worldline,
-            shape: shape(light, spectra),
+            name: light.name.to_string(),
+            worldline: light.worldline,
+            shape: shape(light),
             scale,
             spectrum,
         })
@@ -186,29 +177,18 @@ fn unit(units: LightUnits, kind: LampKind) -> f64 {
     }
 }
 
-fn shape(light: &shot::Light, spectra: &Spectra<'_>) -> LightShape {
-    let vector = |track: &Option<shot::Track<[f64; 3]>>| {
-        track.as_ref().map_or(DVec3::ZERO, |t| {
-            DVec3::from(t.at(spectra.frame, spectra.shot.shot.frames))
-        })
-    };
-    let cos = |track: &Option<shot::Track<f64>>, default: f64| {
-        track
-            .as_ref()
-            .map_or(default, |t| spectra.at(t))
-            .to_radians()
-            .cos()
-    };
-    let position = vector(&light.position);
-    let direction = vector(&light.direction).normalize_or(DVec3::NEG_Z);
+fn shape(light: &frame::Light<'_>) -> LightShape {
+    let cos = |degrees: f64| degrees.to_radians().cos();
+    let position = light.position;
+    let direction = light.direction.normalize_or(DVec3::NEG_Z);
     match light.kind {
         LightKind::Point => LightShape::Point { position },
         LightKind::Sun => LightShape::Sun { direction },
         LightKind::Spot => LightShape::Spot {
             position,
             direction,
-            cos_inner: cos(&light.inner, 0.0),
-            cos_outer: cos(&light.outer, 45.0),
+            cos_inner: cos(light.inner_deg),
+            cos_outer: cos(light.outer_deg),
         },
     }
 }

@@ -3,8 +3,9 @@
 
 use super::bsdf::{Bsdf, Lobe, LobeKind, Reflectance};
 use super::spectra::Spectra;
+use crate::frame;
 use crate::model::ModelMaterial;
-use crate::shot;
+use crate::shot::ThermalCurve;
 use crate::spectrum::{Spectrum, SpectrumError};
 use std::sync::Arc;
 
@@ -117,64 +118,37 @@ impl Material {
     /// The shot's material laid over this one: keys that it gives replace, the rest stays.
     pub(super) fn overlaid(
         mut self,
-        shot: &shot::Material,
+        over: &frame::Material<'_>,
         spectra: &Spectra<'_>,
     ) -> Result<Self, MaterialError> {
-        if let Some(term) = &shot.diffuse {
-            let over = Over {
-                term: LobeKind::Diffuse.key(),
-                weight: &term.weight,
-                spectrum: &term.spectrum,
-            };
-            self = self.with(over, |_| LobeKind::Diffuse, spectra)?;
+        if let Some(term) = over.diffuse {
+            let key = LobeKind::Diffuse.key();
+            self = self.with(key, term, |_| LobeKind::Diffuse, spectra)?;
         }
-        if let Some(term) = &shot.emission {
-            let over = Over {
-                term: "emission",
-                weight: &term.scale,
-                spectrum: &term.spectrum,
-            };
-            self.emission = Some(over.lay(self.emission, spectra)?);
+        if let Some(term) = over.emission {
+            self.emission = Some(laid("emission", term, self.emission, spectra)?);
         }
-        if let Some(term) = &shot.highlight {
-            let over = Over {
-                term: "highlight",
-                weight: &term.weight,
-                spectrum: &term.spectrum,
-            };
-            let kind = |below| match (&term.exponent, below) {
-                (Some(exponent), _) => LobeKind::Highlight {
-                    exponent: spectra.at(exponent),
-                },
+        if let Some(frame::Highlight { term, exponent }) = over.highlight {
+            let kind = |below| match (exponent, below) {
+                (Some(exponent), _) => LobeKind::Highlight { exponent },
                 (None, Some(kept)) => kept,
                 (None, None) => LobeKind::Highlight { exponent: EXPONENT },
             };
-            self = self.with(over, kind, spectra)?;
+            self = self.with("highlight", term, kind, spectra)?;
         }
-        if let Some(term) = &shot.mirror {
-            let over = Over {
-                term: LobeKind::Mirror.key(),
-                weight: &term.weight,
-                spectrum: &term.spectrum,
-            };
-            self = self.with(over, |_| LobeKind::Mirror, spectra)?;
+        if let Some(term) = over.mirror {
+            let key = LobeKind::Mirror.key();
+            self = self.with(key, term, |_| LobeKind::Mirror, spectra)?;
         }
-        if let Some(term) = &shot.refraction {
-            let over = Over {
-                term: "refraction",
-                weight: &term.weight,
-                spectrum: &term.spectrum,
-            };
-            let kind = |below| match (&term.ior, below) {
-                (Some(ior), _) => LobeKind::Refraction {
-                    ior: spectra.at(ior),
-                },
+        if let Some(frame::Refraction { term, ior }) = over.refraction {
+            let kind = |below| match (ior, below) {
+                (Some(ior), _) => LobeKind::Refraction { ior },
                 (None, Some(kept)) => kept,
                 (None, None) => LobeKind::Refraction { ior: IOR },
             };
-            self = self.with(over, kind, spectra)?;
+            self = self.with("refraction", term, kind, spectra)?;
         }
-        if let Some(term) = &shot.thermal {
+        if let Some(term) = &over.thermal {
             self.thermal = thermal(term, spectra)?;
         }
         Ok(self)
@@ -184,13 +158,15 @@ impl Material {
     /// one's.
     fn with(
         mut self,
-        over: Over<'_>,
+        key: &'static str,
+        over: frame::Term<'_>,
         kind: impl FnOnce(Option<LobeKind>) -> LobeKind,
         spectra: &Spectra<'_>,
     ) -> Result<Self, MaterialError> {
-        let below = self.bsdf.of_key(over.term).cloned();
+        let below = self.bsdf.of_key(key).cloned();
         let kind = kind(below.as_ref().map(|lobe| lobe.kind));
-        let reflectance = over.reflectance(below.map(|lobe| lobe.reflectance), spectra)?;
+        let reflectance = laid(key, over, below.map(|lobe| lobe.reflectance), spectra)?;
+        within_one(key, reflectance.weight, &reflectance.spectrum)?;
         self.bsdf = self.bsdf.with(Lobe { kind, reflectance });
         Ok(self)
     }
@@ -213,39 +189,22 @@ impl Material {
     }
 }
 
-/// Keys of a term that are laid over what stands there already.
-struct Over<'a> {
-    term: &'static str,
-    weight: &'a Option<shot::Track<f64>>,
-    spectrum: &'a Option<shot::SpectrumValue>,
-}
-
-impl Over<'_> {
-    fn lay(
-        &self,
-        below: Option<Reflectance>,
-        spectra: &Spectra<'_>,
-    ) -> Result<Reflectance, MaterialError> {
-        let (kept, curve) = below.map_or((1.0, None), |b| (b.weight, Some(b.spectrum)));
-        let weight = self.weight.as_ref().map_or(kept, |w| spectra.at(w));
-        let spectrum = match (self.spectrum, curve) {
-            (Some(value), _) => spectra.curve(value)?,
-            (None, Some(curve)) => curve,
-            (None, None) if weight == 0.0 => Arc::new(Spectrum::Constant(0.0)),
-            (None, None) => return Err(MaterialError::Unbacked(self.term)),
-        };
-        Ok(Reflectance { weight, spectrum })
-    }
-
-    fn reflectance(
-        &self,
-        below: Option<Reflectance>,
-        spectra: &Spectra<'_>,
-    ) -> Result<Reflectance, MaterialError> {
-        let made = self.lay(below, spectra)?;
-        within_one(self.term, made.weight, &made.spectrum)?;
-        Ok(made)
-    }
+/// A term of the shot laid over what stands there already.
+fn laid(
+    name: &'static str,
+    over: frame::Term<'_>,
+    below: Option<Reflectance>,
+    spectra: &Spectra<'_>,
+) -> Result<Reflectance, MaterialError> {
+    let (kept, curve) = below.map_or((1.0, None), |b| (b.weight, Some(b.spectrum)));
+    let weight = over.weight.unwrap_or(kept);
+    let spectrum = match (over.spectrum, curve) {
+        (Some(value), _) => spectra.curve(value)?,
+        (None, Some(curve)) => curve,
+        (None, None) if weight == 0.0 => Arc::new(Spectrum::Constant(0.0)),
+        (None, None) => return Err(MaterialError::Unbacked(name)),
+    };
+    Ok(Reflectance { weight, spectrum })
 }
 
 /// Rounding that a product of authored numbers may carry above 1.
@@ -263,19 +222,17 @@ fn within_one(term: &'static str, weight: f64, spectrum: &Spectrum) -> Result<()
 }
 
 /// A thermal term, or None at 0 K.
-fn thermal(term: &shot::Thermal, spectra: &Spectra<'_>) -> Result<Option<Thermal>, MaterialError> {
-    let temperature_k = term.temperature.as_ref().map_or(0.0, |t| spectra.at(t));
-    let emissivity = match &term.emissivity {
-        Some(value) => spectra.curve(value)?,
-        None => Arc::new(Spectrum::Constant(1.0)),
-    };
+fn thermal(
+    term: &frame::Thermal<'_>,
+    spectra: &Spectra<'_>,
+) -> Result<Option<Thermal>, MaterialError> {
+    let emissivity = spectra.curve(term.emissivity)?;
     within_one("thermal.emissivity", 1.0, &emissivity)?;
     let curve = match term.curve {
-        Some(shot::ThermalCurve::Peak) => {
-            Curve::Peak(term.strength.as_ref().map_or(1.0, |s| spectra.at(s)))
-        }
-        Some(shot::ThermalCurve::Absolute) | None => Curve::Absolute,
+        ThermalCurve::Peak => Curve::Peak(term.strength),
+        ThermalCurve::Absolute => Curve::Absolute,
     };
+    let temperature_k = term.temperature_k;
     Ok((temperature_k > 0.0).then_some(Thermal {
         temperature_k,
         emissivity,

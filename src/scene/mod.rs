@@ -1,8 +1,9 @@
 //! The scene of one image: bodies, lights, camera and background with everything resolved. No path,
 //! option, default or name is left to look up.
 //!
-//! In: a shot at one frame, and its files. Out: a [`Scene`]. Positions are in the rest frame of
-//! each thing's worldline, in meters; angles are in radians.
+//! In: a [`Frame`](crate::frame::Frame), and the [`Library`] of the files that its shot names. Out: a
+//! [`Scene`]. Positions are in the rest frame of each thing's worldline, in meters; angles are in
+//! radians.
 
 pub mod sky;
 

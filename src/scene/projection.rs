@@ -6,7 +6,8 @@
 //! equirectangular and the equidistant projection are those of Snyder, Map Projections: A Working
 //! Manual (1987), pp. 90 and 191.
 
-use crate::shot::{self, Shot, Track};
+use crate::frame::Frame;
+use crate::shot;
 use glam::DVec3;
 use std::f64::consts::{PI, TAU};
 
@@ -38,15 +39,12 @@ pub enum Projection {
 }
 
 impl Projection {
-    /// The shot's projection in one image.
-    pub(super) fn new(shot: &Shot, frame: u32) -> Self {
-        let angle = |track: &Option<Track<f64>>| {
-            let degrees = track.as_ref()?.at(frame, shot.shot.frames);
-            Some(degrees.to_radians())
-        };
-        let given = [angle(&shot.camera.hfov), angle(&shot.camera.vfov)];
-        let size = shot.image.size.map(f64::from);
-        match shot.camera.projection.unwrap_or_default() {
+    /// The projection of a frame's camera.
+    pub(super) fn new(frame: &Frame<'_>) -> Self {
+        let camera = &frame.camera;
+        let given = [camera.hfov_deg, camera.vfov_deg].map(|angle| angle.map(f64::to_radians));
+        let size = frame.image.size.map(f64::from);
+        match camera.projection {
             shot::Projection::Perspective => perspective(given, size),
             shot::Projection::Equirectangular => equirectangular(given, size),
             shot::Projection::Fisheye => fisheye(given, size),

@@ -21,14 +21,14 @@ impl Resolver<'_> {
     /// surfaces without material.
     pub(super) fn materials(&mut self) -> (Vec<Material>, Vec<Vec<u32>>) {
         let mut materials = Vec::new();
-        let of_models = (0..self.shot.model.len())
+        let of_models = (0..self.frame.models.len())
             .map(|index| self.model_materials(index, &mut materials))
             .collect();
         (materials, of_models)
     }
 
     fn model_materials(&mut self, index: usize, materials: &mut Vec<Material>) -> Vec<u32> {
-        let model = &self.shot.model[index];
+        let model = &self.frame.models[index];
         let loaded = self.library.model(index);
         self.check_named(index);
         let mut numbers = Vec::new();
@@ -51,7 +51,7 @@ impl Resolver<'_> {
         let loaded = self.library.model(index);
         let own = loaded.file.materials.iter().map(|m| m.name.as_str());
         let own: Vec<&str> = own.collect();
-        for name in self.shot.model[index].materials.keys() {
+        for name in self.frame.models[index].materials.keys() {
             let is_there =
                 own.contains(&name.as_str()) || name.is_empty() && loaded.has_bare_surfaces();
             if !is_there {
@@ -81,9 +81,7 @@ impl Resolver<'_> {
         materials: &mut Vec<Material>,
     ) -> u32 {
         let spectra = Spectra {
-            shot: self.shot,
             library: self.library,
-            frame: self.frame,
         };
         // By identity, not by appearance in this image: bodies keep their numbers.
         let key = (file.map(std::ptr::from_ref), name.to_owned());
@@ -100,7 +98,7 @@ impl Resolver<'_> {
             Material::imported,
         );
         let made = imported.map_err(MaterialError::from).and_then(|below| {
-            match self.shot.material.get(name) {
+            match self.frame.materials.get(name) {
                 Some(over) => below.overlaid(over, &spectra),
                 None => Ok(below),
             }

@@ -149,7 +149,7 @@ fn make(
     }
     let making = Making {
         shot_folder,
-        splices: Splices::new(shot_folder.shot(), shot_folder.keys.picture().size),
+        splices: Splices::new(shot_folder.shot(), shot_folder.keys.resolution().size),
         notes,
         stop,
     };

@@ -40,7 +40,7 @@ pub fn read(shot_folder: &ShotFolder, frame: u32) -> Result<FrameImage, FrameIma
     let file = shot_folder
         .path
         .join(shot_folder.names.frame(frame, extension));
-    let size = shot_folder.keys.picture().size;
+    let size = shot_folder.keys.resolution().size;
     let decoded = decode::read_bytes(&file, size)
         .and_then(|bytes| decode_as(shot_folder.shot(), extension, &bytes, size));
     match decoded {
@@ -75,7 +75,7 @@ pub(super) fn decode_as(
 ) -> Result<Decoded, Fault> {
     match extension {
         // An EXR holds exposed light: of the development the transfer is left to do.
-        "exr" => decode::exr(bytes, size, development(shot, 0.0).encode),
+        "exr" => decode::exr(bytes, size, development(shot.sensor.color, 0.0).encode),
         _ => decode::png(bytes, size),
     }
 }

@@ -2,8 +2,8 @@
 //! the manifest: a line for each file that was made, with a hash of all that it was made of.
 
 use super::output::Output;
+use crate::frame::Caption;
 use crate::image::decode::open;
-use crate::plan::facts;
 use crate::store::{Journal, ShotFolder, each_line};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
@@ -33,7 +33,7 @@ fn key(shot_folder: &ShotFolder, output: Output) -> String {
     let told: Vec<String> = match output {
         Output::Sheet => frames
             .clone()
-            .map(|frame| facts(shot, frame).map_or_else(|e| e.to_string(), |f| f.caption()))
+            .map(|number| Caption::text_of(shot, number))
             .collect(),
         _ => Vec::new(),
     };

@@ -7,7 +7,7 @@
 use super::frame_image::{FrameImage, reduce};
 use super::output::Encoder;
 use super::splices::Splices;
-use crate::plan::facts;
+use crate::frame::Caption;
 use crate::plot::escaped;
 use crate::plot::raster;
 use crate::shot::{LARGEST_SIDE, MOST_COLUMNS, Shot};
@@ -150,7 +150,7 @@ impl Sheet {
             ));
         }
         let captions = (1..=frames).map(|frame| {
-            let told = facts(shot, frame).map_or_else(|e| e.to_string(), |f| f.caption());
+            let told = Caption::text_of(shot, frame);
             let step = layout.picture[0] / splices.iter().count().max(1) as u32;
             let labels = splices
                 .iter()

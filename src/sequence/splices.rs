@@ -1,7 +1,7 @@
 //! How a frame is shown: as it stands, or the splices of a spliced one side by side.
 
 use super::frame_image::FrameImage;
-use crate::render::{rows, spliced};
+use crate::frame::Splice;
 use crate::shot::{Beaming, Effects, Shot, Switch};
 use std::ops::Range;
 
@@ -32,7 +32,10 @@ impl Splices {
             let list = vec![whole];
             return Self { size, list };
         }
-        let covered: Vec<Range<u32>> = shot.splice.iter().map(|s| rows(s, height)).collect();
+        let covered: Vec<Range<u32>> = Splice::all(shot)
+            .iter()
+            .map(|s| s.rows_of(height))
+            .collect();
         // The last splice that covers a row holds.
         let owner = |row: u32| covered.iter().rposition(|rows| rows.contains(&row));
         let mut list: Vec<SpliceRows> = Vec::new();
@@ -88,13 +91,10 @@ impl Splices {
 
 /// The effects that some splice changes, as they are in one of them or in the rest.
 fn label(shot: &Shot, splice: Option<usize>) -> String {
-    let splice = splice.and_then(|index| shot.splice.get(index));
-    let here = splice.map_or(shot.effects, |splice| spliced(&shot.effects, splice));
-    let changed = shot
-        .splice
-        .iter()
-        .map(|splice| spliced(&shot.effects, splice));
-    let others: Vec<Words> = changed.map(|effects| words(&effects)).collect();
+    let splices = Splice::all(shot);
+    let here = splice.and_then(|index| splices.get(index));
+    let here = here.map_or(shot.effects, |splice| splice.effects);
+    let others: Vec<Words> = splices.iter().map(|s| words(&s.effects)).collect();
     let rest = words(&shot.effects);
     let differs = |(i, _): &(usize, &String)| others.iter().any(|other| other[*i] != rest[*i]);
     let here = words(&here);

@@ -7,8 +7,8 @@
 use super::discontinuity::{Differences, Discontinuity, Grid};
 use super::findings::{Finding, Kind, Report, Run, SINGLY, count, gaps, unknown_files};
 use super::frame_image::{decode_as, shown_extension};
+use crate::frame::FrameFingerprint;
 use crate::image::decode::{Fault, read_bytes};
-use crate::plan::FrameKey;
 use crate::queue::Stop;
 use crate::store::{FileRecord, ShotFolder, Status};
 use rayon::prelude::*;
@@ -148,7 +148,7 @@ fn inspect(
     file: &str,
     extension: &str,
 ) -> Result<Inspected, Fault> {
-    let size = shot_folder.keys.picture().size;
+    let size = shot_folder.keys.resolution().size;
     let bytes = read_bytes(&shot_folder.path.join(file), size)?;
     let decoded = decode_as(shot_folder.shot(), extension, &bytes, size)?;
     let mut wrong = Vec::new();
@@ -226,8 +226,8 @@ fn unexplained(shot_folder: &ShotFolder, discontinuity: &Discontinuity) -> Optio
 }
 
 /// Whether a value of the shot leaves the way between its neighbours.
-fn explained(keys: [FrameKey; 3]) -> bool {
-    let [before, here, after] = keys.map(|key| key.parts);
+fn explained(keys: [FrameFingerprint; 3]) -> bool {
+    let [before, here, after] = keys.map(|key| key.inputs);
     let one_way = |part: &str, value: &String| match (before.get(part), after.get(part)) {
         (Some(before), Some(after)) => smooth(before, value, after),
         _ => false,
@@ -273,10 +273,10 @@ fn numbers(text: &str) -> Option<Vec<f64>> {
 mod tests {
     use super::*;
 
-    fn keys(values: [&str; 3]) -> [FrameKey; 3] {
-        values.map(|value| FrameKey {
+    fn keys(values: [&str; 3]) -> [FrameFingerprint; 3] {
+        values.map(|value| FrameFingerprint {
             fingerprint: String::new(),
-            parts: [("camera.pan".to_owned(), value.to_owned())]
+            inputs: [("camera.pan".to_owned(), value.to_owned())]
                 .into_iter()
                 .collect(),
             trace: String::new(),
@@ -311,7 +311,7 @@ mod tests {
     #[test]
     fn a_part_that_one_frame_alone_has_explains_it() {
         let [before, mut here, after] = keys(["1", "1", "1"]);
-        here.parts
+        here.inputs
             .insert("model[1].file".to_owned(), "x".to_owned());
         assert!(explained([before, here, after]));
     }

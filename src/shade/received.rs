@@ -5,7 +5,7 @@
 //! D³ I′(Dλ)/r′², r′ in the lamp's rest frame (Rybicki & Lightman 1979 §4.9; Hsiung et al. 1990
 //! §2.5 scale by D² alone). `effects.beaming` replaces the powers, `effects.doppler` the shift.
 
-use crate::plan::Called;
+use crate::frame::ActiveEffects;
 use crate::shot::Beaming;
 
 /// The powers of D and the shift that an image is rendered with.
@@ -17,7 +17,7 @@ pub struct Received {
 
 impl Received {
     /// As the image calls for.
-    pub fn new(called: &Called) -> Self {
+    pub fn new(called: &ActiveEffects) -> Self {
         Self {
             beaming: called.beaming,
             doppler: called.doppler,

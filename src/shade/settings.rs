@@ -1,17 +1,17 @@
 //! What a shader is made for, beside the scene.
 
-use crate::plan::Called;
-use crate::shot::{self, Accuracy, SensorColor};
+use crate::frame::{self, ActiveEffects};
+use crate::shot::{Accuracy, SensorColor};
 use crate::spectrum::{LogAxis, Quadrature, Sensor};
 
 /// What a [`Shader`](super::Shader) is made for, beside the scene.
 pub struct Settings<'a> {
     /// Effects of the image.
-    pub called: &'a Called,
+    pub called: &'a ActiveEffects,
     /// How spectra are held.
     pub accuracy: &'a Accuracy,
     /// The band that is seen, and how.
-    pub sensor: &'a shot::Sensor,
+    pub sensor: &'a frame::Sensor,
     /// Largest |ln D| between a surface and the camera.
     pub reach: f64,
     /// Largest |ln D| between a lamp and a surface.

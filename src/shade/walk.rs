@@ -7,7 +7,7 @@
 //! weight was made.
 
 use super::received::{Doppler, Received};
-use crate::plan::Called;
+use crate::frame::ActiveEffects;
 use crate::scene::Scene;
 use crate::spectrum::Spectrum;
 use crate::trace::{Branch, DirectLight, Node, Root, Seen, ShadeTrees};
@@ -44,7 +44,7 @@ pub(super) struct TreeWalk {
 
 impl TreeWalk {
     /// For the trees of a scene's image.
-    pub(super) fn new(scene: &Scene, called: &Called) -> Self {
+    pub(super) fn new(scene: &Scene, called: &ActiveEffects) -> Self {
         let mut emitters: Vec<Arc<Spectrum>> = Vec::new();
         let lamps = scene
             .lights

@@ -24,9 +24,9 @@ const MANIFEST: u32 = 1;
 pub struct Record {
     /// Its number.
     pub frame: u32,
-    /// What it is made of: [`FrameKey::fingerprint`](crate::plan::FrameKey).
+    /// What it is made of: [`FrameFingerprint::fingerprint`](crate::frame::FrameFingerprint).
     pub fingerprint: String,
-    /// The same part by part: [`FrameKey::parts`](crate::plan::FrameKey).
+    /// The same part by part: [`FrameFingerprint::inputs`](crate::frame::FrameFingerprint).
     pub parts: IndexMap<String, String>,
     /// Its files.
     pub files: Vec<FileRecord>,
@@ -36,7 +36,7 @@ pub struct Record {
     pub samples: u32,
     /// Names of the effects that were simulated.
     pub effects: Vec<String>,
-    /// [`FrameKey::trace`](crate::plan::FrameKey).
+    /// [`FrameFingerprint::trace`](crate::frame::FrameFingerprint).
     pub trace: String,
     /// How many frames shared the trace with it, itself counted.
     pub shared: u32,

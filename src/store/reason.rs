@@ -1,6 +1,6 @@
 //! In words: what differs between what a frame was made of and what it should be made of.
 
-use crate::plan::FrameKey;
+use crate::frame::FrameFingerprint;
 use indexmap::IndexMap;
 
 type Parts = IndexMap<String, String>;
@@ -11,8 +11,8 @@ const TOLD: usize = 3;
 const EPOCH: &str = "epoch";
 
 /// Continues "stale because ". `version` is that of the program which made the frame of `was`.
-pub(super) fn difference(was: &Parts, key: &FrameKey, version: &str) -> String {
-    let is = &key.parts;
+pub(super) fn difference(was: &Parts, key: &FrameFingerprint, version: &str) -> String {
+    let is = &key.inputs;
     if was.get(EPOCH) != is.get(EPOCH) {
         return format!("it is by restframe {version}, and pixels have changed since");
     }
@@ -56,9 +56,9 @@ mod tests {
     }
 
     fn told(was: &[(&str, &str)], is: &[(&str, &str)]) -> String {
-        let key = FrameKey {
+        let key = FrameFingerprint {
             fingerprint: String::new(),
-            parts: parts(is),
+            inputs: parts(is),
             trace: String::new(),
         };
         difference(&parts(was), &key, "0.1.0")

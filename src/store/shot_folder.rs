@@ -4,8 +4,8 @@ use super::manifest::{FileRecord, Found, Manifests, Record};
 use super::names::Names;
 use super::reason::difference;
 use super::request::Request;
+use crate::frame::{Digests, Fingerprints, FrameFingerprint, Resolution};
 use crate::image::fingerprint;
-use crate::plan::{Digests, FrameKey, Keys, Picture};
 use crate::render::Options;
 use crate::shot::{Format, Mistakes, Shot};
 use rayon::prelude::*;
@@ -19,7 +19,7 @@ use std::time::SystemTime;
 #[derive(Debug)]
 pub struct ShotFolder {
     /// What each frame is made of.
-    pub keys: Keys,
+    pub keys: Fingerprints,
     /// Where the files are; it need not exist.
     pub path: PathBuf,
     /// What they are called.
@@ -82,13 +82,13 @@ impl ShotFolder {
     pub fn new(shot: &Shot, request: &Request) -> Result<Self, Mistakes> {
         let digests = Digests::read(shot)?;
         let options = request.options(shot);
-        let picture = Picture {
+        let picture = Resolution {
             size: [options.width, options.height],
             samples: options.samples,
         };
         let names = Names::new(shot);
         Ok(Self {
-            keys: Keys::new(shot.clone(), digests, picture),
+            keys: Fingerprints::new(shot.clone(), digests, picture),
             path: request.out.join(&names.stem),
             names,
             records: BTreeMap::new(),
@@ -154,7 +154,7 @@ impl ShotFolder {
     /// Whether a frame has to be rendered: by its record, its files' lengths, and what their
     /// headers say they are made of. Where no record tells, files that say the right thing are
     /// decoded whole, so that a folder survives without its manifests.
-    pub fn status(&self, frame: u32, key: &FrameKey) -> Status {
+    pub fn status(&self, frame: u32, key: &FrameFingerprint) -> Status {
         let files = self.files(frame);
         let lengths = self.lengths(frame);
         if lengths.iter().all(Option::is_none) {
@@ -193,7 +193,7 @@ impl ShotFolder {
     }
 
     /// What a manifest tells of a frame's files, if they are of the frame as it should be.
-    pub fn written(&self, frame: u32, key: &FrameKey) -> Option<&[FileRecord]> {
+    pub fn written(&self, frame: u32, key: &FrameFingerprint) -> Option<&[FileRecord]> {
         let record = self.records.get(&frame);
         let record = record.filter(|record| record.fingerprint == key.fingerprint);
         let found = self.found.get(&frame);
@@ -208,7 +208,7 @@ impl ShotFolder {
     }
 
     /// Lengths that a manifest tells of a frame's files, in their order.
-    fn told(&self, frame: u32, key: &FrameKey) -> Option<Vec<u64>> {
+    fn told(&self, frame: u32, key: &FrameFingerprint) -> Option<Vec<u64>> {
         let written = self.written(frame, key)?;
         let length = |name: String| Some(written.iter().find(|file| file.name == name)?.bytes);
         self.files(frame).into_iter().map(length).collect()
@@ -216,7 +216,7 @@ impl ShotFolder {
 
     /// What is to be written down of a frame that is fresh, so that it need not be decoded again;
     /// nothing, if a manifest tells of it.
-    pub(crate) fn found(&self, frame: u32, key: &FrameKey) -> Option<Found> {
+    pub(crate) fn found(&self, frame: u32, key: &FrameFingerprint) -> Option<Found> {
         if self.told(frame, key).is_some() {
             return None;
         }
@@ -254,7 +254,7 @@ impl ShotFolder {
     }
 
     /// Whether all files that are there say that they are what `key` says.
-    fn is_of(&self, files: &[String], key: &FrameKey) -> bool {
+    fn is_of(&self, files: &[String], key: &FrameFingerprint) -> bool {
         files.iter().all(|name| {
             let path = self.path.join(name);
             !path.exists() || fingerprint::fingerprint(&path).as_ref() == Some(&key.fingerprint)
@@ -263,7 +263,7 @@ impl ShotFolder {
 
     /// Of files that say the right thing, but that no record tells the lengths of.
     fn decoded(&self, files: &[String]) -> Status {
-        let size = self.keys.picture().size;
+        let size = self.keys.resolution().size;
         let broken = |name: &&String| !fingerprint::is_whole(&self.path.join(name), size);
         match files.iter().find(broken) {
             None => Status::Fresh,

@@ -4,7 +4,7 @@ use super::interleaved_timing::{median, most_rounds as pairs, timing};
 use super::results::EffectCost;
 use super::timed_render::{Bodies, Subject, Variant};
 use super::{Start, StudyError};
-use crate::plan::Called;
+use crate::frame::{ActiveEffects, Frame, Splice};
 use crate::scene::{Library, Scene};
 use crate::shot::{Beaming, Effects, Shot, Switch};
 use crate::trace::build_aggregate;
@@ -19,7 +19,7 @@ struct Effect {
     paper: Option<&'static str>,
 }
 
-fn effects(called: &Called) -> [Effect; 6] {
+fn effects(called: &ActiveEffects) -> [Effect; 6] {
     let effect = |name, called, off| Effect {
         name,
         called,
@@ -53,7 +53,7 @@ const PAIRS: u32 = 3;
 pub(super) fn costs(
     start: &Start<'_>,
     library: &Library,
-    called: &Called,
+    called: &ActiveEffects,
     subject: &Subject,
     rounds: u32,
 ) -> Result<Vec<EffectCost>, StudyError> {
@@ -69,7 +69,7 @@ pub(super) fn costs(
             "mirror" if !called.mirror && called.refraction => "refraction",
             name => name,
         };
-        let why = called.because.iter().find(|reason| reason.effect == named);
+        let why = called.reasons.iter().find(|reason| reason.effect == named);
         let why = why.map_or_else(String::new, |reason| reason.why.clone());
         costs.push(EffectCost {
             effect: effect.name,
@@ -87,7 +87,7 @@ pub(super) fn costs(
 fn without(shot: &Shot, off: fn(&mut Effects)) -> Shot {
     let mut shot = shot.clone();
     for splice in &mut shot.splice {
-        let mut effects = crate::render::spliced(&shot.effects, splice);
+        let mut effects = Splice::new(splice, &shot.effects).effects;
         off(&mut effects);
         let over = &mut splice.effects;
         over.geometry = Some(effects.geometry);
@@ -121,7 +121,7 @@ fn second_worldline(
     let on = start.as_it_is();
     let called = others > 0;
     let off = if called {
-        let scene = Scene::resolve(&shot, library, start.frame, None)?;
+        let scene = Scene::resolve(&Frame::new(&shot, start.frame)?, library, None)?;
         let stage = build_aggregate(&scene.geometry, None);
         Variant {
             shot,

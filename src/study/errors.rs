@@ -17,7 +17,7 @@ pub(super) fn errors(
     reference: &Film,
     stops: f64,
 ) -> Result<Errors, StudyError> {
-    let development = development(shot, stops);
+    let development = development(shot.sensor.color, stops);
     let color = film.channels == Channels::Xyz;
     let [one, other] = [film, reference].map(|film| develop(film, &development));
     Ok(Errors {

@@ -21,10 +21,10 @@ mod timed_render;
 
 pub use results::Study;
 
+use crate::frame::{ActiveEffects, Frame};
 use crate::image::EncodeError;
 use crate::image::compare::CompareError;
-use crate::plan::{self, Called};
-use crate::render::{Options, Prepared, motion_mistake};
+use crate::render::{Options, Prepared};
 use crate::scene::Scene;
 use crate::shot::{Accuracy, Mistakes, Shot, Spectra};
 use crate::store::Names;
@@ -113,16 +113,15 @@ pub fn study(
     news: &dyn Fn(&str),
 ) -> Result<Study, StudyError> {
     let shot = &prepared.shot;
-    let frame = request.frame;
-    let called =
-        plan::called(shot, frame, &shot.effects).map_err(|error| motion_mistake(shot, &error))?;
+    let frame = Frame::new(shot, request.frame)?;
+    let called = frame.active_effects(&frame.effects);
     let (exposing, _) = prepared.exposure()?;
-    let subject = Subject::new(shot, frame, &exposing, request.scratch.clone());
-    let scene = Scene::resolve(shot, &prepared.library, frame, None)?;
+    let subject = Subject::new(&frame, &exposing, request.scratch.clone());
+    let scene = Scene::resolve(&frame, &prepared.library, None)?;
     let stage = build_aggregate(&scene.geometry, None);
     let start = Start {
         shot,
-        frame,
+        frame: frame.number,
         options: request.options.clone(),
         bodies: Arc::new(Bodies { scene, stage }),
     };
@@ -170,7 +169,7 @@ pub fn study(
         schema_version: 1,
         shot: Names::new(&prepared.shot).stem,
         title: shot.shot.title.clone(),
-        frame,
+        frame: frame.number,
         size: [request.options.width, request.options.height],
         samples: request.options.samples,
         machine: Machine {
@@ -204,7 +203,7 @@ fn by_grid(shot: &Shot) -> Shot {
 /// The renders to compare: the shot twice; without shift; by lines, splines and the grid.
 fn compare(
     start: &Start<'_>,
-    called: &Called,
+    called: &ActiveEffects,
     subject: &Subject,
     rounds: u32,
 ) -> Result<[Measured; 6], StudyError> {

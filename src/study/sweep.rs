@@ -96,7 +96,7 @@ fn compared(
 /// Errors of a file format: the image read back against the film.
 fn file_errors(variant: &Variant, run: &Run, subject: &Subject) -> Result<Errors, StudyError> {
     let film = &run.film;
-    let exact = develop(film, &development(&variant.shot, subject.stops));
+    let exact = develop(film, &development(variant.shot.sensor.color, subject.stops));
     let Some((extension, bytes)) = run.files.first() else {
         return Ok(Errors::default());
     };

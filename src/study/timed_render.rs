@@ -3,10 +3,11 @@
 use super::StudyError;
 use crate::accel::Aggregate;
 use crate::film::{Film, develop};
+use crate::frame::Frame;
 use crate::probe;
 use crate::render::{
     Exposing, Member, Options, PictureInfo, Pictures, Profile, View, development, encode,
-    motion_mistake, render_profiled,
+    render_profiled,
 };
 use crate::scene::Scene;
 use crate::shot::Shot;
@@ -33,10 +34,10 @@ pub(super) struct Subject {
 
 impl Subject {
     /// The subject of a shot.
-    pub(super) fn new(shot: &Shot, frame: u32, exposing: &Exposing, scratch: PathBuf) -> Self {
+    pub(super) fn new(frame: &Frame<'_>, exposing: &Exposing, scratch: PathBuf) -> Self {
         Self {
-            frame,
-            stops: exposing.stops(frame, shot.shot.frames),
+            frame: frame.number,
+            stops: exposing.stops(frame),
             scratch,
         }
     }
@@ -102,8 +103,8 @@ impl Variant {
     /// The image, ready for rays.
     pub(super) fn view(&self, subject: &Subject) -> Result<View<'_>, StudyError> {
         let (scene, stage) = (&self.bodies.scene, &self.bodies.stage);
-        let view = View::new(&self.shot, subject.frame, &self.shot.effects, scene, stage);
-        Ok(view.map_err(|error| motion_mistake(&self.shot, &error))?)
+        let frame = Frame::new(&self.shot, subject.frame)?;
+        Ok(View::new(&frame, &frame.effects, scene, stage))
     }
 
     /// Renders the variant once.
@@ -112,28 +113,14 @@ impl Variant {
         let profile = Profile::default();
         let (scene, stage) = (&self.bodies.scene, &self.bodies.stage);
         let begun = Instant::now();
-        let film = render_profiled(
-            &self.shot,
-            subject.frame,
-            scene,
-            stage,
-            &self.options,
-            &|_| (),
-            Some(&profile),
-        )
-        .map_err(|error| motion_mistake(&self.shot, &error))?;
+        let frame = &Frame::new(&self.shot, subject.frame)?;
+        let film = render_profiled(frame, scene, stage, &self.options, &|_| (), Some(&profile));
         let rendered = Instant::now();
-        let member = Member {
-            shot: &self.shot,
-            frame: subject.frame,
-            scene,
-        };
+        let member = Member { frame, scene };
         let size = [film.width, film.height];
-        let insets = probe::insets(member, stage, subject.stops, size)
-            .map_err(|error| motion_mistake(&self.shot, &error))?;
+        let insets = probe::insets(member, stage, subject.stops, size);
         let Pictures { files, .. } = encode(
-            &self.shot,
-            subject.frame,
+            frame,
             scene,
             &film,
             &insets,
@@ -153,7 +140,7 @@ impl Variant {
         let threads = rayon::current_num_threads() as f64;
         // Repeated to time it alone, since it is part of making the files.
         let again = Instant::now();
-        let developed = develop(&film, &development(&self.shot, subject.stops));
+        let developed = develop(&film, &development(frame.sensor.color, subject.stops));
         let developing = again.elapsed().as_secs_f64();
         drop(developed);
         let writing = (ended - rendered).as_secs_f64() - developing;

@@ -2,6 +2,7 @@
 
 use restframe::color::spaces::D65_XYZ;
 use restframe::color::{delta_e_2000, lab_from_xyz};
+use restframe::frame::Frame;
 use restframe::image::compare::Comparison;
 use restframe::render::Prepared;
 use restframe::render::{Options, render};
@@ -18,12 +19,9 @@ const SIZE: [u32; 2] = [128, 72];
 fn differences(number: u32) -> Comparison {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("shots/plate-{number:02}.toml"));
     let mut prepared = Prepared::read(&path).unwrap();
-    let stops = prepared
-        .exposure()
-        .unwrap()
-        .0
-        .stops(1, prepared.shot.shot.frames);
-    let scene = Scene::resolve(&prepared.shot, &prepared.library, 1, None).unwrap();
+    let frame = Frame::new(&prepared.shot, 1).unwrap();
+    let stops = prepared.exposure().unwrap().0.stops(&frame);
+    let scene = Scene::resolve(&frame, &prepared.library, None).unwrap();
     let stage = build_aggregate(&scene.geometry, None);
     let options = Options {
         width: SIZE[0],
@@ -33,7 +31,8 @@ fn differences(number: u32) -> Comparison {
     };
     let mut film = |spectra| {
         prepared.shot.accuracy.spectra = spectra;
-        render(&prepared.shot, 1, &scene, &stage, &options, &|_| ()).unwrap()
+        let frame = Frame::new(&prepared.shot, 1).unwrap();
+        render(&frame, &scene, &stage, &options, &|_| ())
     };
     let [exact, grid] = [Spectra::Exact, Spectra::Grid].map(&mut film);
     assert!(

@@ -9,8 +9,8 @@ use restframe::accel::Hit;
 use restframe::color::cie::xyz_of;
 use restframe::color::spaces::D65_XYZ;
 use restframe::color::{delta_e_2000, lab_from_xyz};
+use restframe::frame::{Frame, Sensor};
 use restframe::image::compare::Comparison;
-use restframe::plan;
 use restframe::scene::{
     Bsdf, Curve, Library, Lobe, LobeKind, Material, Reflectance, Scene, Thermal,
 };
@@ -189,18 +189,20 @@ impl Wall {
         std::fs::write(folder.join("quad.obj"), quad).unwrap();
         let shot = shot::parse(SHOT, &folder.join("shadings.toml")).unwrap();
         let library = Library::load(&shot).unwrap();
-        let scene = Scene::resolve(&shot, &library, 1, None).unwrap();
+        let scene = Scene::resolve(&Frame::new(&shot, 1).unwrap(), &library, None).unwrap();
         Self { shot, scene }
     }
 
     fn shader(&mut self, shading: &Shading, material: Material, accuracy: Accuracy) -> Shader {
         self.scene.materials[0] = material;
         self.scene.lights[0].spectrum = Arc::clone(&shading.lamp);
-        let called = plan::called(&self.shot, 1, &self.shot.effects).unwrap();
+        let called = Frame::new(&self.shot, 1)
+            .unwrap()
+            .active_effects(&self.shot.effects);
         let settings = Settings {
             called: &called,
             accuracy: &accuracy,
-            sensor: &self.shot.sensor,
+            sensor: &Sensor::new(&self.shot.sensor),
             reach: shading.doppler.ln().abs() + 1e-9,
             lamp_reach: shading.lamp_doppler.ln().abs() + 1e-9,
         };

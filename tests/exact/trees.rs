@@ -1,6 +1,7 @@
 //! Whole shade trees: through mirrors and glass, and black bodies that move.
 
 use glam::DVec3;
+use restframe::frame::Frame;
 use restframe::render::Prepared;
 use restframe::render::View;
 use restframe::scene::Scene;
@@ -13,9 +14,10 @@ use std::path::Path;
 fn seen(prepared: &mut Prepared, accuracy: Accuracy) -> Vec<[f64; 3]> {
     prepared.shot.accuracy = accuracy;
     let shot = &prepared.shot;
-    let scene = Scene::resolve(shot, &prepared.library, 1, None).unwrap();
+    let frame = Frame::new(shot, 1).unwrap();
+    let scene = Scene::resolve(&frame, &prepared.library, None).unwrap();
     let stage = build_aggregate(&scene.geometry, None);
-    let view = View::new(shot, 1, &shot.effects, &scene, &stage).unwrap();
+    let view = View::new(&frame, &shot.effects, &scene, &stage);
     let [width, height] = shot.image.size;
     let centers = (0..height).flat_map(|y| (0..width).map(move |x| [x, y]));
     let directions: Vec<DVec3> = centers

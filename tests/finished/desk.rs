@@ -245,10 +245,10 @@ pub(crate) fn record(shot_folder: &ShotFolder) {
         let record = Record {
             frame,
             fingerprint: key.fingerprint,
-            parts: key.parts,
+            parts: key.inputs,
             files: files.collect(),
-            size: shot_folder.keys.picture().size,
-            samples: shot_folder.keys.picture().samples,
+            size: shot_folder.keys.resolution().size,
+            samples: shot_folder.keys.resolution().samples,
             effects: Vec::new(),
             trace: key.trace,
             shared: 1,

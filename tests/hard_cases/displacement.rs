@@ -2,6 +2,7 @@
 
 use super::scene::Set;
 use glam::DVec3;
+use restframe::frame::Frame;
 use restframe::render::View;
 use restframe::study::displacement::{Displacement, displacement};
 use restframe::trace::build_aggregate;
@@ -12,9 +13,10 @@ const PAINT: &str = "[image]\nsize = [320, 180]\n\
 fn displaced(text: &str) -> Displacement {
     let set = Set::new(&format!("{PAINT}{text}"));
     let shot = &set.prepared.shot;
+    let frame = Frame::new(shot, 1).unwrap();
     let scene = set.scene();
     let stage = build_aggregate(&scene.geometry, None);
-    let view = View::new(shot, 1, &shot.effects, &scene, &stage).unwrap();
+    let view = View::new(&frame, &shot.effects, &scene, &stage);
     displacement(&view, &view, shot.image.size)
 }
 

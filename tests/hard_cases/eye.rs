@@ -3,7 +3,9 @@
 
 use super::scene::Set;
 use glam::DVec3;
-use restframe::accel::{Aggregate, Hit};
+use restframe::accel::Aggregate;
+use restframe::accel::Hit;
+use restframe::frame::Frame;
 use restframe::model::Mesh;
 use restframe::probe::{Probe, probe};
 use restframe::render::View;
@@ -35,7 +37,12 @@ impl<'a> Eye<'a> {
     /// Another frame than the first.
     pub(crate) fn in_frame(set: &'a Set, frame: u32) -> Self {
         let prepared = &set.prepared;
-        let scene = Scene::resolve(&prepared.shot, &prepared.library, frame, None).unwrap();
+        let scene = Scene::resolve(
+            &Frame::new(&prepared.shot, frame).unwrap(),
+            &prepared.library,
+            None,
+        )
+        .unwrap();
         Self::of(set, frame, scene)
     }
 
@@ -52,7 +59,12 @@ impl<'a> Eye<'a> {
 
     pub(crate) fn view(&self) -> View<'_> {
         let shot = &self.set.prepared.shot;
-        View::new(shot, self.frame, &shot.effects, &self.scene, &self.stage).unwrap()
+        View::new(
+            &Frame::new(shot, self.frame).unwrap(),
+            &shot.effects,
+            &self.scene,
+            &self.stage,
+        )
     }
 
     /// What the centres of all pixels see, row by row, at exposure 0.
@@ -63,7 +75,13 @@ impl<'a> Eye<'a> {
         (0..width * height)
             .map(|i| {
                 let pixel = [i % width, i / width];
-                probe(shot, self.frame, pixel, &view, &self.scene, 0.0)
+                probe(
+                    &Frame::new(shot, self.frame).unwrap(),
+                    pixel,
+                    &view,
+                    &self.scene,
+                    0.0,
+                )
             })
             .collect()
     }

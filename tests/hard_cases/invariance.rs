@@ -13,6 +13,7 @@ use super::poincare::Poincare;
 use super::scene::Set;
 use glam::DVec3;
 use restframe::film::Film;
+use restframe::frame::Frame;
 use restframe::render::View;
 use restframe::scene::LobeKind;
 use restframe::trace::{Branch, Node, Root, Scratch, Seen, ShadeTrees, build_aggregate};
@@ -212,7 +213,7 @@ fn totally_reflected(text: &str) -> usize {
     let set = Set::new(text);
     let (shot, scene) = (&set.prepared.shot, set.scene());
     let stage = build_aggregate(&scene.geometry, None);
-    let view = View::new(shot, 1, &shot.effects, &scene, &stage).unwrap();
+    let view = View::new(&Frame::new(shot, 1).unwrap(), &shot.effects, &scene, &stage);
     let [width, height] = shot.image.size;
     let directions: Vec<DVec3> = (0..width * height)
         .map(|i| [(i % width, width), (i / width, height)])

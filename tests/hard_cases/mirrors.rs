@@ -2,6 +2,7 @@
 
 use super::scene::Set;
 use glam::DVec3;
+use restframe::frame::Frame;
 use restframe::probe::{Probe, ProbeNode};
 use restframe::relativity::{Boost, Celerity};
 use restframe::render::View;
@@ -198,7 +199,7 @@ cases! {
             let shot = &set.prepared.shot;
             let scene = set.scene();
             let stage = build_aggregate(&scene.geometry, None);
-            let view = View::new(shot, 1, &shot.effects, &scene, &stage).unwrap();
+            let view = View::new(&Frame::new(shot, 1).unwrap(), &shot.effects, &scene, &stage);
             let mut trees = ShadeTrees::default();
             view.tracer().trace(&[direction], &mut Scratch::default(), &mut trees);
             let glass = scene.materials[0].bsdf.refraction().unwrap().0 as u32;

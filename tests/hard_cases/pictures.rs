@@ -4,6 +4,7 @@
 use super::scene::Set;
 use glam::DVec3;
 use restframe::film::Film;
+use restframe::frame::Frame;
 use restframe::render::View;
 use restframe::trace::{Root, Scratch, Seen, ShadeTrees, build_aggregate};
 
@@ -206,7 +207,7 @@ impl Hit {
 pub(crate) fn hits(set: &Set) -> Vec<Option<Hit>> {
     let (shot, scene) = (&set.prepared.shot, set.scene());
     let stage = build_aggregate(&scene.geometry, None);
-    let view = View::new(shot, 1, &shot.effects, &scene, &stage).unwrap();
+    let view = View::new(&Frame::new(shot, 1).unwrap(), &shot.effects, &scene, &stage);
     let [width, height] = shot.image.size;
     let directions: Vec<DVec3> = (0..width * height)
         .map(|i| [i % width, i / width].map(|p| f64::from(p) + 0.5))

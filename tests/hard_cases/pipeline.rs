@@ -8,6 +8,7 @@ use rayon::ThreadPoolBuilder;
 use rayon::prelude::*;
 use restframe::color::cie;
 use restframe::film::Film;
+use restframe::frame::Frame;
 use restframe::render::View;
 use restframe::shade::ShadeScratch;
 use restframe::spectrum::{Spectrum, planck};
@@ -197,7 +198,7 @@ fn backwards(set: &Set) -> Vec<[f32; 3]> {
     let shot = &set.prepared.shot;
     let scene = set.scene();
     let stage = build_aggregate(&scene.geometry, None);
-    let view = View::new(shot, 1, &shot.effects, &scene, &stage).unwrap();
+    let view = View::new(&Frame::new(shot, 1).unwrap(), &shot.effects, &scene, &stage);
     let [width, height] = shot.image.size;
     let samples = Samples::new(shot.image.samples, shot.image.filter);
     let (mut scratch, mut shading) = (Scratch::default(), ShadeScratch::default());

@@ -1,6 +1,7 @@
 //! Small scenes, written to a folder of their own: shots of one wall, box or ball.
 
 use restframe::film::Film;
+use restframe::frame::Frame;
 use restframe::probe::{Probe, probe};
 use restframe::render::Prepared;
 use restframe::render::{Options, View, render};
@@ -60,19 +61,20 @@ impl Set {
         let shot = &self.prepared.shot;
         let scene = self.scene();
         let stage = build_aggregate(&scene.geometry, None);
-        let view = View::new(shot, 1, &shot.effects, &scene, &stage).unwrap();
-        let stops = self
-            .prepared
-            .exposure()
-            .unwrap()
-            .0
-            .stops(1, shot.shot.frames);
-        probe(shot, 1, pixel, &view, &scene, stops)
+        let frame = Frame::new(shot, 1).unwrap();
+        let view = View::new(&frame, &shot.effects, &scene, &stage);
+        let stops = self.prepared.exposure().unwrap().0.stops(&frame);
+        probe(&frame, pixel, &view, &scene, stops)
     }
 
     /// Frame 1, resolved.
     pub(crate) fn scene(&self) -> Scene {
-        Scene::resolve(&self.prepared.shot, &self.prepared.library, 1, None).unwrap()
+        Scene::resolve(
+            &Frame::new(&self.prepared.shot, 1).unwrap(),
+            &self.prepared.library,
+            None,
+        )
+        .unwrap()
     }
 
     /// Frame 1 as the film has it, with all layers.
@@ -92,7 +94,13 @@ impl Set {
             samples: shot.image.samples,
             layers: vec![Distance, Doppler, EmissionTime, Worldline],
         };
-        render(shot, 1, scene, &stage, &options, &|_| ()).unwrap()
+        render(
+            &Frame::new(shot, 1).unwrap(),
+            scene,
+            &stage,
+            &options,
+            &|_| (),
+        )
     }
 }
 

@@ -1,7 +1,7 @@
 //! A folder with a shot and its files, for the tests beside.
 
 use crate::common::desk::Desk;
-use restframe::plan::{Digests, FrameKey, Keys, Picture};
+use restframe::frame::{Digests, Fingerprints, FrameFingerprint, Resolution};
 use restframe::shot::{Shot, parse};
 
 /// Two triangles and a slanted third, of two materials.
@@ -29,18 +29,18 @@ impl Desk {
     }
 
     /// The keys of its frames at the size that it names.
-    pub(crate) fn keys(&self, text: &str) -> Keys {
+    pub(crate) fn keys(&self, text: &str) -> Fingerprints {
         let shot = self.shot(text);
         let digests = Digests::read(&shot).unwrap();
-        let picture = Picture {
+        let picture = Resolution {
             size: shot.image.size,
             samples: shot.image.samples,
         };
-        Keys::new(shot, digests, picture)
+        Fingerprints::new(shot, digests, picture)
     }
 
     /// All of a shot's keys.
-    pub(crate) fn all(&self, text: &str) -> Vec<FrameKey> {
+    pub(crate) fn all(&self, text: &str) -> Vec<FrameFingerprint> {
         let keys = self.keys(text);
         (1..=keys.shot().shot.frames)
             .map(|frame| keys.frame(frame))

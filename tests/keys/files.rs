@@ -2,7 +2,7 @@
 
 use super::desk::house;
 use crate::common::desk::Desk;
-use restframe::plan::Digests;
+use restframe::frame::Digests;
 
 const SHOT: &str = r#"
 [[model]]

@@ -2,7 +2,7 @@
 
 use super::desk::house;
 use crate::common::desk::Desk;
-use restframe::plan::FrameKey;
+use restframe::frame::FrameFingerprint;
 use std::time::Instant;
 
 const SHOT: &str = r##"
@@ -48,7 +48,9 @@ gif = false
 fn differing(desk: &Desk, one: &str, other: &str) -> Vec<usize> {
     let (one, other) = (desk.all(one), desk.all(other));
     let frames = one.iter().zip(&other).enumerate();
-    let differ = |(_, (a, b)): &(usize, (&FrameKey, &FrameKey))| a.fingerprint != b.fingerprint;
+    let differ = |(_, (a, b)): &(usize, (&FrameFingerprint, &FrameFingerprint))| {
+        a.fingerprint != b.fingerprint
+    };
     frames.filter(differ).map(|(i, _)| i + 1).collect()
 }
 
@@ -181,7 +183,7 @@ fn a_metered_exposure_makes_every_frame_depend_on_the_first() {
     let metered = with("exposure = 1", "exposure = \"auto\"");
     let moved = metered.replace("[1, [0, 0, 0]]", "[1, [0.1, 0, 0]]");
     assert_eq!(differing(&desk, &metered, &moved).len(), 9);
-    let parts = |text: &str| desk.all(text)[8].parts.clone();
+    let parts = |text: &str| desk.all(text)[8].inputs.clone();
     let (was, is) = (parts(&metered), parts(&moved));
     let changed: Vec<_> = is
         .iter()
@@ -198,7 +200,7 @@ fn a_metered_exposure_makes_every_frame_depend_on_the_first() {
 #[test]
 fn parts_are_named_and_valued_as_their_author_would_write_them() {
     let desk = house();
-    let parts = desk.all(SHOT)[0].parts.clone();
+    let parts = desk.all(SHOT)[0].inputs.clone();
     for (key, value) in [
         ("camera.pan", "1.0"),
         ("worldline.w.velocity", "[0.0,0.0,0.0]"),
@@ -208,7 +210,7 @@ fn parts_are_named_and_valued_as_their_author_would_write_them() {
         ("sensor.exposure", "1.0"),
         ("size", "[64,36]"),
         ("samples", "3"),
-        ("epoch", &restframe::plan::EPOCH.to_string()),
+        ("epoch", &restframe::frame::EPOCH.to_string()),
     ] {
         assert_eq!(
             parts.get(key).map(String::as_str),
@@ -224,7 +226,7 @@ fn parts_are_named_and_valued_as_their_author_would_write_them() {
         "file = \"paint.csv\"",
         "points = [[400, 0.1], [500, 0.2], [600, 0.3], [700, 0.4]]",
     );
-    let points = desk.all(&long)[0].parts["spectrum.paint.points"].clone();
+    let points = desk.all(&long)[0].inputs["spectrum.paint.points"].clone();
     assert!(points.starts_with('#') && points.len() == 17, "{points}");
 }
 

@@ -7,7 +7,7 @@ use super::desk::house;
 use crate::common::desk::Desk;
 use restframe::film::develop;
 use restframe::film::to_rgb8;
-use restframe::plan::EPOCH;
+use restframe::frame::{EPOCH, Frame};
 use restframe::render::{Options, development, render};
 use restframe::scene::{Library, Scene};
 use restframe::trace::build_aggregate;
@@ -90,7 +90,8 @@ const PIXELS: [&str; 4] = [
 fn pixels(desk: &Desk, subject: &str) -> Vec<u8> {
     let shot = desk.shot(&format!("{COMMON}{subject}"));
     let library = Library::load(&shot).unwrap();
-    let scene = Scene::resolve(&shot, &library, 1, None).unwrap();
+    let frame = Frame::new(&shot, 1).unwrap();
+    let scene = Scene::resolve(&frame, &library, None).unwrap();
     let stage = build_aggregate(&scene.geometry, None);
     let options = Options {
         width: shot.image.size[0],
@@ -98,8 +99,8 @@ fn pixels(desk: &Desk, subject: &str) -> Vec<u8> {
         samples: shot.image.samples,
         layers: Vec::new(),
     };
-    let film = render(&shot, 1, &scene, &stage, &options, &|_| ()).unwrap();
-    let development = development(&shot, 0.0);
+    let film = render(&frame, &scene, &stage, &options, &|_| ());
+    let development = development(shot.sensor.color, 0.0);
     to_rgb8(&develop(&film, &development), development.encode)
 }
 
@@ -131,6 +132,6 @@ fn pixels_change_only_with_the_epoch() {
     assert_eq!(
         found, PIXELS,
         "the same shots give other pixels than before. If that is meant, raise EPOCH in \
-         src/plan/key.rs, so that finished frames are rendered anew, and write these hashes here"
+         src/frame/fingerprint/fingerprints.rs, so that finished frames are rendered anew, and write these hashes here"
     );
 }

@@ -2,7 +2,7 @@
 //! picture renders it again.
 
 use super::desk::house;
-use restframe::plan;
+use restframe::frame::Frame;
 use restframe::shot::{Places, Sequence, Shot, parse, schema};
 use serde_json::Value;
 use std::collections::BTreeSet;
@@ -299,8 +299,12 @@ fn what_a_frame_calls_for_is_what_the_shot_of_that_frame_alone_does() {
         };
         for frame in 1..=shot.shot.frames {
             let still = shot.at(frame);
-            let alone = plan::called(&still, 1, &still.effects);
-            let called = plan::called(&shot, frame, &shot.effects);
+            let alone = Frame::new(&still, 1)
+                .unwrap()
+                .active_effects(&still.effects);
+            let called = Frame::new(&shot, frame)
+                .unwrap()
+                .active_effects(&shot.effects);
             assert_eq!(called, alone, "{}: {frame}", path.display());
         }
     }

@@ -4,7 +4,8 @@
 use super::desk::house;
 use crate::common::desk::Desk;
 use rayon::prelude::*;
-use restframe::render::{View, rows, spliced};
+use restframe::frame::Frame;
+use restframe::render::View;
 use restframe::scene::{Library, Scene};
 use restframe::shot::{Effects, Shot, parse};
 use restframe::trace::{Samples, Scratch, ShadeTrees, build_aggregate};
@@ -129,7 +130,7 @@ fn desk() -> Desk {
 fn traced(desk: &Desk, text: &str) -> Option<(String, String)> {
     let shot = parse(text, &desk.path("shot.toml")).ok()?;
     let library = Library::load(&shot).ok()?;
-    let scene = Scene::resolve(&shot, &library, 1, None).ok()?;
+    let scene = Scene::resolve(&Frame::new(&shot, 1).unwrap(), &library, None).ok()?;
     Some((desk.keys(text).frame(1).trace, trees(&shot, &scene)))
 }
 
@@ -151,12 +152,12 @@ fn trees(shot: &Shot, scene: &Scene) -> String {
     let mut all = Hashing(blake3::Hasher::new());
     write!(all, "{width} x {height}, {} samples", shot.image.samples).unwrap();
     let mut scratch = Scratch::default();
-    let view = |effects: &Effects| View::new(shot, 1, effects, scene, &stage).unwrap();
-    let whole = view(&shot.effects);
-    let parts: Vec<_> = shot
-        .splice
-        .iter()
-        .map(|splice| (rows(splice, height), view(&spliced(&shot.effects, splice))))
+    let frame = Frame::new(shot, 1).unwrap();
+    let view = |effects: &Effects| View::new(&frame, effects, scene, &stage);
+    let whole = view(&frame.effects);
+    let splices = frame.splices.iter();
+    let parts: Vec<_> = splices
+        .map(|splice| (splice.rows_of(height), view(&splice.effects)))
         .collect();
     for y in 0..height {
         let part = parts.iter().rev().find(|(rows, _)| rows.contains(&y));

@@ -1,6 +1,7 @@
 //! Surfaces to which a file gives no material.
 
 use super::bad::{triangle, write};
+use restframe::frame::Frame;
 use restframe::model::Warning;
 use restframe::render::Prepared;
 use restframe::scene::{Material, Reflectance, Scene};
@@ -42,7 +43,11 @@ fn seen(file: &str, keys: &str) -> Result<Seen, Mistakes> {
     let text = format!("[[model]]\nfile = \"{file}\"\n{keys}\n{SHOT}");
     let path = write(folder.path(), "shot.toml", text.as_bytes());
     let prepared = Prepared::read(&path)?;
-    let scene = Scene::resolve(&prepared.shot, &prepared.library, 1, None)?;
+    let scene = Scene::resolve(
+        &Frame::new(&prepared.shot, 1).unwrap(),
+        &prepared.library,
+        None,
+    )?;
     let nodes = if file.ends_with("obj") {
         ["Bare", "Red"]
     } else {

@@ -1,13 +1,17 @@
 //! The plates are frames of their animations, to the last bit.
 
 use super::thumbnail::{film, prepared};
+use restframe::frame::Frame;
 
 fn same(animation: &str, frames: &[(u32, u32)]) {
     let prepared_animation = prepared(animation);
     for &(plate, frame) in frames {
         let stem = format!("plate-{plate:02}");
         let exposed = |p: &restframe::render::Prepared| {
-            p.exposure().unwrap().0.stops(frame, p.shot.shot.frames)
+            p.exposure()
+                .unwrap()
+                .0
+                .stops(&Frame::new(&p.shot, frame).unwrap())
         };
         let plate = prepared(&stem);
         assert_eq!(exposed(&plate), exposed(&prepared_animation), "{stem}");

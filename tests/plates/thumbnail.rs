@@ -3,9 +3,10 @@
 use restframe::color::spaces::{RGB_FROM_XYZ, encode};
 use restframe::film::to_rgb8;
 use restframe::film::{Development, Film, develop};
+use restframe::frame::Frame;
 use restframe::probe::{Probe, probe};
 use restframe::render::Prepared;
-use restframe::render::{Options, View, render, rows, spliced};
+use restframe::render::{Options, View, render};
 use restframe::scene::Scene;
 use restframe::trace::build_aggregate;
 use std::path::Path;
@@ -61,7 +62,12 @@ pub(crate) fn prepared(stem: &str) -> Prepared {
 
 /// The film of one frame.
 pub(crate) fn film(prepared: &Prepared, frame: u32) -> Film {
-    let scene = Scene::resolve(&prepared.shot, &prepared.library, frame, None).unwrap();
+    let scene = Scene::resolve(
+        &Frame::new(&prepared.shot, frame).unwrap(),
+        &prepared.library,
+        None,
+    )
+    .unwrap();
     let stage = build_aggregate(&scene.geometry, None);
     let options = Options {
         width: WIDTH,
@@ -69,7 +75,13 @@ pub(crate) fn film(prepared: &Prepared, frame: u32) -> Film {
         samples: SAMPLES,
         layers: Vec::new(),
     };
-    render(&prepared.shot, frame, &scene, &stage, &options, &|_| ()).unwrap()
+    render(
+        &Frame::new(&prepared.shot, frame).unwrap(),
+        &scene,
+        &stage,
+        &options,
+        &|_| (),
+    )
 }
 
 impl Thumbnail {
@@ -77,34 +89,27 @@ impl Thumbnail {
     pub(crate) fn new(stem: &str, frame: u32) -> Self {
         let prepared = prepared(stem);
         let shot = &prepared.shot;
+        let values = Frame::new(shot, frame).unwrap();
         let film = film(&prepared, frame);
-        let exposure = prepared
-            .exposure()
-            .unwrap()
-            .0
-            .stops(frame, shot.shot.frames);
+        let exposure = prepared.exposure().unwrap().0.stops(&values);
         let development = Development {
             rgb_from_xyz: RGB_FROM_XYZ,
             exposure_stops: exposure,
             encode,
         };
         let rgb8 = to_rgb8(&develop(&film, &development), encode);
-        let scene = Scene::resolve(shot, &prepared.library, frame, None).unwrap();
+        let scene = Scene::resolve(&values, &prepared.library, None).unwrap();
         let stage = build_aggregate(&scene.geometry, None);
         let (mut probes, mut directions) = (Vec::new(), Vec::new());
-        let effects = |y| {
-            let mut splices = shot.splice.iter().rev();
-            let splice = splices.find(|s| rows(s, HEIGHT).contains(&y));
-            splice.map_or(shot.effects, |splice| spliced(&shot.effects, splice))
-        };
-        let under = |effects| View::new(shot, frame, &effects, &scene, &stage).unwrap();
+        let effects = |y| values.effects_at(y);
+        let under = |effects| View::new(&values, &effects, &scene, &stage);
         let mut view = under(effects(0));
         for y in 0..HEIGHT {
             if y > 0 && effects(y) != effects(y - 1) {
                 view = under(effects(y));
             }
             for x in 0..WIDTH {
-                probes.push(probe(shot, frame, [x, y], &view, &scene, exposure));
+                probes.push(probe(&values, [x, y], &view, &scene, exposure));
                 let point = [
                     (f64::from(x) + 0.5) / f64::from(WIDTH),
                     (f64::from(y) + 0.5) / f64::from(HEIGHT),

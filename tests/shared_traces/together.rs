@@ -2,6 +2,7 @@
 
 use super::{Changes, Image, options, scene, together};
 use restframe::film::Channels;
+use restframe::frame::Frame;
 use restframe::render::Prepared;
 use restframe::render::{Options, film_bytes};
 use restframe::shot::Layer;
@@ -173,7 +174,7 @@ fn a_film_holds_the_means_of_its_samples_in_their_order() {
     let image = Image::new(&[], &options);
     let (scene, stage) = scene(&image.prepared);
     let shot = &image.prepared.shot;
-    let view = View::new(shot, 1, &shot.effects, &scene, &stage).unwrap();
+    let view = View::new(&Frame::new(shot, 1).unwrap(), &shot.effects, &scene, &stage);
     let samples = Samples::new(options.samples, shot.image.filter);
     for (pixel, xyz) in image.alone.xyz.iter().enumerate() {
         let [x, y] = [pixel as u32 % 2, pixel as u32 / 2];

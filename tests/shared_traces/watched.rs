@@ -1,24 +1,15 @@
 //! Work that is watched: stopped, counted, and timed.
 
-use super::{Changes, options, prepared, scene, together};
+use super::{Changes, member, options, prepared, scene, together};
 use restframe::accel::Aggregate;
-use restframe::render::Prepared;
-use restframe::render::{Member, Options, TogetherError, Watch, render_together};
-use restframe::scene::Scene;
+use restframe::frame::Frame;
+use restframe::render::{Member, Options, Stopped, Watch, render_together};
 use restframe::shot::{Track, Velocity};
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::time::{Duration, Instant};
 
 /// From being told to having returned: some milliseconds, and what a busy machine adds.
 const PROMPT: Duration = Duration::from_millis(500);
-
-fn member<'a>(prepared: &'a Prepared, scene: &'a Scene) -> Member<'a> {
-    Member {
-        shot: &prepared.shot,
-        frame: 1,
-        scene,
-    }
-}
 
 /// How long it takes to stop images in their midst; and the rays that were finished before.
 fn stopped(members: &[Member<'_>], stage: &Aggregate, options: &Options) -> (Duration, u64) {
@@ -42,7 +33,7 @@ fn stopped(members: &[Member<'_>], stage: &Aggregate, options: &Options) -> (Dur
         let told = Instant::now();
         stop.store(true, Ordering::Relaxed);
         let (result, returned) = work.join().unwrap();
-        assert!(matches!(result, Err(TogetherError::Stopped)));
+        assert!(matches!(result, Err(Stopped)));
         (told, returned)
     });
     (returned - told, rays.load(Ordering::Relaxed))
@@ -101,7 +92,7 @@ fn who_is_to_stop_before_the_start_renders_nothing() {
     };
     let members = [member(&prepared, &scene); 2];
     let result = render_together(&members, &stage, &options(4), watch);
-    assert!(matches!(result, Err(TogetherError::Stopped)));
+    assert!(matches!(result, Err(Stopped)));
 }
 
 #[test]
@@ -179,20 +170,13 @@ fn tracing_is_not_repeated_for_every_image() {
 }
 
 #[test]
-fn a_velocity_that_fails_in_one_member_is_named() {
-    let whole = prepared(&[]);
-    let (scene, stage) = scene(&whole);
-    let mut failing = whole.shot.clone();
+fn a_frame_whose_velocity_fails_is_refused_and_named() {
+    let mut failing = prepared(&[]).shot;
     // No shot that can be read has it.
     failing.worldline["fast"].velocity = Velocity::Beta(Track::Constant([0.0, 1.5, 0.0]));
-    let other = Member {
-        shot: &failing,
-        ..member(&whole, &scene)
-    };
-    let members = [member(&whole, &scene), other];
-    let result = together(2, &members, &stage, &options(1));
-    let Err(TogetherError::Motion(error)) = result else {
-        unreachable!("nothing is so fast: {result:?}")
-    };
-    assert_eq!((error.worldline.as_str(), error.frame), ("fast", 1));
+    let mistakes = Frame::new(&failing, 1).expect_err("nothing is so fast");
+    let mistake = mistakes.iter().next().unwrap();
+    assert_eq!(mistake.key, "worldline.fast.velocity");
+    let message = "worldline \"fast\" has no velocity in frame 1: ";
+    assert!(mistake.message.starts_with(message), "{mistake:?}");
 }

@@ -2,6 +2,7 @@
 
 use super::{Folder, both, moving, off, shader};
 use glam::DVec3;
+use restframe::frame::Frame;
 use restframe::spectrum::{Uplift, illuminant};
 
 #[test]
@@ -92,8 +93,9 @@ fn a_sky_that_moves_calls_for_the_shift() {
             "[worldline.sky]\nvelocity = [0, 0, 0.5]\n[camera]\n[background]\nworldline = \"sky\"\n{sky}\n"
         );
         let shot = folder.shot(1, &rest).unwrap().shot;
-        restframe::plan::called(&shot, 1, &shot.effects)
+        Frame::new(&shot, 1)
             .unwrap()
+            .active_effects(&shot.effects)
             .doppler
     };
     assert!(called("image = \"sky.hdr\""));

@@ -1,12 +1,12 @@
-//! `restframe plan`: what each frame calls for and why, which frames share a trace, and what they
-//! will take. Frames are told as they are planned, so that a reader need not wait for the last.
+//! `restframe plan`: effects of each frame and their reasons, shared traces, time. Frames are
+//! printed as they are planned, so that a reader need not wait for the last.
 
 mod words;
 
 use super::answer::{Answer, Reader};
 use super::{Failed, PlanArguments, failed, frames, mistaken, misused, print};
-use crate::plan::Reason;
-use crate::queue::{Forecast, FrameForecast, Totals, effect_names};
+use crate::frame::Reason;
+use crate::queue::{Forecast, FrameForecast, Totals};
 use crate::shot::{self, Beaming};
 use crate::store::{FolderError, ShotFolder, Status};
 use indexmap::IndexSet;
@@ -39,7 +39,7 @@ pub(super) fn run(arguments: &PlanArguments) -> Result<(), Failed> {
     }
 }
 
-/// Answers for programs: the contract's object, a frame a line.
+/// Prints the plan for programs: one object with a frame per line.
 fn tell_json(forecast: &Forecast<'_>) -> Result<(), Failed> {
     let mut answer = Answer::new();
     let mut before = "{\"frames\": [\n";
@@ -63,7 +63,7 @@ fn tell_json(forecast: &Forecast<'_>) -> Result<(), Failed> {
     answer.end()
 }
 
-/// Answers for people: of frames in a row of which the same is to be said one line.
+/// Prints the plan for people: one line for consecutive frames with equal plans.
 fn tell(folder: &ShotFolder, forecast: &Forecast<'_>) -> Result<(), Failed> {
     let mut runs: Vec<Run> = Vec::new();
     let told = forecast.each(
@@ -91,11 +91,10 @@ fn tell(folder: &ShotFolder, forecast: &Forecast<'_>) -> Result<(), Failed> {
     Ok(())
 }
 
-/// Frames one after the other of which the same is to be said, each with the trace of all or with
-/// one of its own.
+/// Consecutive frames with equal plans, which either share one trace or have one each.
 struct Run {
     first: FrameForecast,
-    /// The last one's number, and that of its trace.
+    /// Number of the last frame, and that of its trace.
     last: [u32; 2],
 }
 
@@ -105,8 +104,8 @@ impl Run {
         Self { first, last }
     }
 
-    /// Whether the next frame goes with it: from the second on, its trace is the same or the next, as
-    /// it was from the first to the second.
+    /// Whether the next frame belongs to this run: from the second on, its trace is the same or the
+    /// next one, as it was from the first to the second.
     fn takes(&self, next: &FrameForecast) -> bool {
         let [frame, trace] = self.last;
         let (first, length) = (&self.first, frame - self.first.frame);
@@ -115,12 +114,12 @@ impl Run {
             0 => step <= 1,
             _ => step == u32::from(trace != first.trace),
         };
-        let effects = effect_names(&first.called) == effect_names(&next.called);
+        let effects = first.called.names() == next.called.names();
         next.frame == frame + 1 && same_step && first.status == next.status && effects
     }
 }
 
-/// A frame as the contract has it.
+/// A frame in the JSON output.
 #[derive(Serialize)]
 struct Frame<'a> {
     frame: u32,
@@ -160,7 +159,7 @@ impl<'a> Frame<'a> {
                 mirror: called.mirror,
                 refraction: called.refraction,
             },
-            because: &called.because,
+            because: &called.reasons,
             trace: planned.trace,
             status: word(&planned.status),
             seconds: planned.seconds,

@@ -1,7 +1,7 @@
 //! A plan in words.
 
 use super::Run;
-use crate::queue::{FrameForecast, Totals, effect_names};
+use crate::queue::{FrameForecast, Totals};
 use crate::store::{ShotFolder, Status};
 use indexmap::IndexMap;
 
@@ -13,9 +13,9 @@ pub(super) fn word(status: &Status) -> &'static str {
     }
 }
 
-/// What there is to do, in a few lines.
+/// The work to do, in a few lines.
 pub(super) fn head(shot_folder: &ShotFolder, totals: &Totals) -> String {
-    let picture = shot_folder.keys.picture();
+    let picture = shot_folder.keys.resolution();
     let [width, height] = picture.size;
     let left = totals.frames - totals.fresh;
     let basis = match (left, totals.measured) {
@@ -40,7 +40,7 @@ pub(super) fn head(shot_folder: &ShotFolder, totals: &Totals) -> String {
 
 pub(super) fn line(run: &Run) -> String {
     let (first, [last_frame, last_trace]) = (&run.first, run.last);
-    let effects = effect_names(&first.called);
+    let effects = first.called.names();
     let effects = match effects.as_slice() {
         [] => "no effects".to_owned(),
         names => names.join(", "),
@@ -54,11 +54,11 @@ pub(super) fn line(run: &Run) -> String {
     format!("{frames}  {status}  {effects}  {traces}")
 }
 
-/// Why effects are called for, those of one reason together.
+/// Reasons for the effects, with those of the same reason together.
 pub(super) fn sentences(planned: &FrameForecast) -> Vec<String> {
-    let names = effect_names(&planned.called);
+    let names = planned.called.names();
     let mut effects: IndexMap<&str, Vec<&str>> = IndexMap::new();
-    for reason in &planned.called.because {
+    for reason in &planned.called.reasons {
         if names.iter().any(|name| name == reason.effect) {
             effects.entry(&reason.why).or_default().push(reason.effect);
         }

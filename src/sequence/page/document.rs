@@ -2,7 +2,7 @@
 
 use super::frame_row::{Contents, Found, Outcomes, find, fitting};
 use super::{chart, head, pictures, table};
-use crate::plan::facts;
+use crate::frame::Caption;
 use crate::progress::FrameOutcome;
 use crate::queue::Stop;
 use crate::sequence::freshness;
@@ -91,14 +91,12 @@ fn key(shot_folder: &ShotFolder, outcomes: &Outcomes, found: &Found) -> String {
         };
         let fingerprint = shot_folder.keys.frame(frame).fingerprint;
         let record = fitting(shot_folder, frame);
-        let facts = facts(shot, frame).ok();
-        // `Debug` tells numbers to their last digit.
         json!([
             fingerprint,
             state(status),
             failed,
             record,
-            format!("{facts:?}")
+            Caption::text_of(shot, frame)
         ])
     });
     let parts = json!([
@@ -108,8 +106,8 @@ fn key(shot_folder: &ShotFolder, outcomes: &Outcomes, found: &Found) -> String {
         shot.shot.title,
         shot.shot.fps,
         shot_folder.files(1),
-        shot_folder.keys.picture().size,
-        shot_folder.keys.picture().samples,
+        shot_folder.keys.resolution().size,
+        shot_folder.keys.resolution().samples,
         assembled.collect::<Vec<_>>(),
         frames.collect::<Vec<_>>(),
         [json!(shot.shot.frames), json!(found.gaps)],

@@ -1,7 +1,7 @@
 //! One frame as the page tells of it.
 
 use super::thumbnail::{Thumbnail, small};
-use crate::plan::{Facts, facts};
+use crate::frame::{Caption, Frame};
 use crate::progress::FrameOutcome;
 use crate::queue::Stop;
 use crate::sequence::findings::{Run, SINGLY, count, gaps};
@@ -70,7 +70,7 @@ pub(super) struct FrameRow<'a> {
     /// URL of its full picture beside the page.
     pub(super) full: Option<String>,
     pub(super) record: Option<&'a Record>,
-    pub(super) facts: Option<Facts>,
+    pub(super) caption: Option<Caption>,
 }
 
 /// What a page tells of: frames that are there or that a run was to make, and where there are more,
@@ -169,7 +169,9 @@ impl<'a> FrameRow<'a> {
             full: (picture.is_some() && browsers_show_it).then(|| beside(&name)),
             picture,
             record: fitting(shot_folder, frame),
-            facts: facts(shot, frame).ok(),
+            caption: Frame::new(shot, frame)
+                .ok()
+                .map(|frame| Caption::new(&frame)),
         }
     }
 }

@@ -116,7 +116,7 @@ fn counts(contents: &Contents<'_>) -> String {
 }
 
 fn shot_file(shot_folder: &ShotFolder) -> String {
-    let picture = shot_folder.keys.picture();
+    let picture = shot_folder.keys.resolution();
     let [width, height] = picture.size;
     let fps = shot_folder.shot().shot.fps;
     let plural = if picture.samples == 1 { "" } else { "s" };

@@ -37,7 +37,7 @@ fn cell(row: &FrameRow<'_>) -> Markup {
 
 /// One frame large, a slider and a button to play them all; hidden until the script shows it.
 pub(super) fn player(shot_folder: &ShotFolder, contents: &Contents<'_>) -> Markup {
-    let [width, height] = shot_folder.keys.picture().size;
+    let [width, height] = shot_folder.keys.resolution().size;
     html! {
         section #player hidden data-fps=(shot_folder.shot().shot.fps) data-frames=(contents.frames) aria-label="Player" {
             div.stage style={ "aspect-ratio:" (width) "/" (height) } {

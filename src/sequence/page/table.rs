@@ -2,7 +2,7 @@
 
 use super::chart::PHASES;
 use super::frame_row::{Contents, Entry, FrameRow, beside, span};
-use crate::plan::Facts;
+use crate::frame::Caption;
 use crate::plot::quantity::{NOTHING, bytes, number, time};
 use crate::relativity::Celerity;
 use crate::store::Record;
@@ -78,8 +78,8 @@ const COLUMNS: [Column; 17] = [
     }),
 ];
 
-fn fact(row: &FrameRow<'_>, part: impl Fn(&Facts) -> Option<String>) -> Option<String> {
-    part(row.facts.as_ref()?)
+fn fact(row: &FrameRow<'_>, part: impl Fn(&Caption) -> Option<String>) -> Option<String> {
+    part(row.caption.as_ref()?)
 }
 
 fn record(row: &FrameRow<'_>, part: impl Fn(&Record) -> Option<String>) -> Option<String> {

@@ -4,12 +4,12 @@
 //! Light is added up in the rest frame of what sends it, each lamp shifted into the rest frame of
 //! the surface; one shift takes the sum to the camera.
 
-use super::super::curve::Curve;
-use super::super::received::{Doppler, finite};
-use super::super::settings::Settings;
-use super::super::thermal::BlackbodySpectrum;
-use super::super::walk::{Lamps, SpectralBasis, TreeWalk, Visit};
 use crate::scene::{Material, Reflectance, Scene};
+use crate::shade::curve::Curve;
+use crate::shade::received::{Doppler, finite};
+use crate::shade::settings::Settings;
+use crate::shade::thermal::BlackbodySpectrum;
+use crate::shade::walk::{Lamps, SpectralBasis, TreeWalk, Visit};
 use crate::spectrum::{LogAxis, Spectrum};
 use crate::trace::{Root, ShadeTrees};
 use glam::DVec3;

@@ -3,13 +3,13 @@
 //! for comparison of accuracy and time, so it takes no short cut but one: a shift of exactly 1
 //! resamples nothing.
 
-use super::super::curve::Curve;
-use super::super::radiance::Radiance;
-use super::super::received::finite;
-use super::super::settings::Settings;
 use super::coefficients::{CoefficientBasis, CoefficientShader, Coefficients, Part, Shading};
 use crate::scene::sky::{SkyImage, Stars};
 use crate::scene::{Background, Scene};
+use crate::shade::curve::Curve;
+use crate::shade::radiance::Radiance;
+use crate::shade::received::finite;
+use crate::shade::settings::Settings;
 use crate::shot::SensorColor;
 use crate::spectrum::{ColoredLight, LineAxis, Lines, LogAxis, illuminant, planck};
 use crate::trace::{Root, ShadeTrees};

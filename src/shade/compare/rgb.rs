@@ -6,15 +6,15 @@
 //! saturation of both. Under `sensor.color = "bands"` the three numbers are the bands, and the
 //! spectrum of white is constant.
 
-use super::super::curve::Curve;
-use super::super::received::finite;
-use super::super::settings::Settings;
-use super::super::thermal::BlackbodyTable;
 use super::coefficients::{CoefficientBasis, CoefficientShader, Coefficients, Part, Shading};
 use crate::color::cie::RANGE_NM;
 use crate::color::spaces::{Matrix, RGB_FROM_XYZ, XYZ_FROM_RGB, apply};
 use crate::scene::sky::{SkyImage, Stars};
 use crate::scene::{Background, Scene};
+use crate::shade::curve::Curve;
+use crate::shade::received::finite;
+use crate::shade::settings::Settings;
+use crate::shade::thermal::BlackbodyTable;
 use crate::shot::SensorColor;
 use crate::spectrum::{ColoredLight, LogAxis, Sensor, Spectrum, illuminant};
 use crate::trace::{Root, ShadeTrees};

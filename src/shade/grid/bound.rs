@@ -1,9 +1,9 @@
 //! The error bound of a grid: over all materials, lamps and shifts of a scene.
 
-use super::super::curve::Curve;
-use super::super::curves::CurveShader;
-use super::super::integrand::Reading;
-use super::super::table::XyzTable;
+use crate::shade::curve::Curve;
+use crate::shade::curves::CurveShader;
+use crate::shade::integrand::Reading;
+use crate::shade::table::XyzTable;
 use crate::spectrum::{GridBound, Quadrature, Roughness, Spectrum, planck};
 
 /// Relative error of black bodies by a table over ln T: 2e-5 where the window holds 1e-80 of their

@@ -1,12 +1,12 @@
 //! A tree to the sensor's channels: by tables over ln D where there are some, else by sums over the
 //! sensor's wavelengths.
 
-use super::super::curves::CurveShader;
-use super::super::received::{Doppler, finite};
-use super::super::scratch::ShadeScratch;
-use super::super::table::add;
-use super::super::walk::{Lamps, SpectralBasis, Visit};
 use super::throughput::Throughputs;
+use crate::shade::curves::CurveShader;
+use crate::shade::received::{Doppler, finite};
+use crate::shade::scratch::ShadeScratch;
+use crate::shade::table::add;
+use crate::shade::walk::{Lamps, SpectralBasis, Visit};
 use crate::trace::{Root, ShadeTrees};
 use glam::DVec3;
 

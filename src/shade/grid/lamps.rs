@@ -1,13 +1,13 @@
 //! Channels of lamps on a surface, under the shifts of both.
 
-use super::super::curve::Curve;
-use super::super::curves::CurveShader;
-use super::super::integrand::Reading;
-use super::super::material::{MaterialCurves, ReflectorTables};
-use super::super::received::{Doppler, finite};
-use super::super::scratch::ShadeScratch;
-use super::super::table::add;
-use super::super::walk::Lamps;
+use crate::shade::curve::Curve;
+use crate::shade::curves::CurveShader;
+use crate::shade::integrand::Reading;
+use crate::shade::material::{MaterialCurves, ReflectorTables};
+use crate::shade::received::{Doppler, finite};
+use crate::shade::scratch::ShadeScratch;
+use crate::shade::table::add;
+use crate::shade::walk::Lamps;
 
 /// The shifts of a surface's reflectance and of a lamp's light to the camera, and their logarithms.
 struct Shifts {

@@ -5,13 +5,13 @@
 //! share; where these are too many for a ray, one is read by its means over the axis' spacing
 //! ([`unresolved`](super::unresolved())).
 
-use super::super::curve::write_shape;
-use super::super::curves::CurveShader;
-use super::super::integrand::{Reading, Source};
-use super::super::narrow::Narrow;
-use super::super::received::finite;
-use super::super::table::add;
-use super::super::walk::{Origin, Visit};
+use crate::shade::curve::write_shape;
+use crate::shade::curves::CurveShader;
+use crate::shade::integrand::{Reading, Source};
+use crate::shade::narrow::Narrow;
+use crate::shade::received::finite;
+use crate::shade::table::add;
+use crate::shade::walk::{Origin, Visit};
 
 /// Widest range, in spacings of the axis, over which two narrow curves are integrated for a ray. Of
 /// wider ones, tables with narrow bands all over, one is read by its means.

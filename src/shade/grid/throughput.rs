@@ -4,9 +4,9 @@
 //! multiplied wavelength by wavelength. While all of them are the same at every wavelength, as those
 //! of plain mirrors are, the product is one number.
 
-use super::super::curve::Curve;
-use super::super::received::finite;
-use super::super::walk::Passage;
+use crate::shade::curve::Curve;
+use crate::shade::received::finite;
+use crate::shade::walk::Passage;
 
 /// Throughputs of a tree's nodes, in their order.
 #[derive(Default)]

@@ -5,11 +5,11 @@
 //! is a few lines. Otherwise one is read by its means over the axis' spacing, which is right only as
 //! far as its bands are not correlated with those of the other.
 
-use super::super::curves::CurveShader;
-use super::super::integrand::Reading;
-use super::super::material::ReflectorTables;
-use super::super::settings::Settings;
 use crate::scene::{Light, Material, Scene};
+use crate::shade::curves::CurveShader;
+use crate::shade::integrand::Reading;
+use crate::shade::material::ReflectorTables;
+use crate::shade::settings::Settings;
 use crate::shot::Spectra;
 use crate::spectrum::{Fine, LogAxis, Spectrum};
 use std::fmt;

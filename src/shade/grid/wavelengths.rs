@@ -1,11 +1,11 @@
 //! A tree to spectral radiance at the sensor's wavelengths.
 
-use super::super::curves::CurveShader;
-use super::super::radiance::Radiance;
-use super::super::received::{Doppler, finite};
-use super::super::scratch::ShadeScratch;
-use super::super::walk::{Lamps, SpectralBasis, Visit};
 use super::throughput::Throughputs;
+use crate::shade::curves::CurveShader;
+use crate::shade::radiance::Radiance;
+use crate::shade::received::{Doppler, finite};
+use crate::shade::scratch::ShadeScratch;
+use crate::shade::walk::{Lamps, SpectralBasis, Visit};
 use crate::trace::{Root, ShadeTrees};
 use glam::DVec3;
 

@@ -1,7 +1,7 @@
 //! Knobs: the depth to which light is followed through mirrors and glass.
 
 use super::Knob;
-use crate::plan::Called;
+use crate::frame::ActiveEffects;
 use crate::shot::MOST_BOUNCES;
 use crate::study::Start;
 use crate::study::timed_render::Variant;
@@ -10,7 +10,7 @@ const BOUNCES: [u32; 7] = [0, 1, 2, 3, 4, 8, 16];
 const CUTOFFS: [f64; 6] = [0.3, 0.1, 0.01, 1e-3, 1e-4, 1e-6];
 
 /// The knob `effects.bounces`.
-pub(super) fn bounces(start: &Start<'_>, called: &Called) -> Knob {
+pub(super) fn bounces(start: &Start<'_>, called: &ActiveEffects) -> Knob {
     let mut knob = Knob::new(
         "effects.bounces",
         "surfaces",
@@ -52,7 +52,7 @@ pub(super) fn bounces(start: &Start<'_>, called: &Called) -> Knob {
 }
 
 /// The knob `accuracy.cutoff`.
-pub(super) fn cutoff(start: &Start<'_>, called: &Called) -> Knob {
+pub(super) fn cutoff(start: &Start<'_>, called: &ActiveEffects) -> Knob {
     let mut knob = Knob::new(
         "accuracy.cutoff",
         "surfaces",
@@ -87,7 +87,7 @@ pub(super) fn cutoff(start: &Start<'_>, called: &Called) -> Knob {
 }
 
 /// Whether the image has neither mirror nor glass; adds a note then.
-fn no_branches(knob: &mut Knob, called: &Called) -> bool {
+fn no_branches(knob: &mut Knob, called: &ActiveEffects) -> bool {
     let none = !called.mirror && !called.refraction;
     if none {
         knob.note = Some("the image calls for no mirror and no glass".to_owned());

@@ -9,7 +9,7 @@ mod spectra;
 use super::Start;
 use super::displacement::Displacement;
 use super::timed_render::Variant;
-use crate::plan::Called;
+use crate::frame::ActiveEffects;
 use crate::render::View;
 
 pub(super) use spectra::{lines_seen, without_shift};
@@ -56,7 +56,7 @@ impl Knob {
 }
 
 /// All knobs, in the order of a report.
-pub(super) const KNOBS: [fn(&Start<'_>, &Called) -> Knob; 6] = [
+pub(super) const KNOBS: [fn(&Start<'_>, &ActiveEffects) -> Knob; 6] = [
     spectra::spectra,
     |start, _| pixels::samples(start),
     mirrors::bounces,

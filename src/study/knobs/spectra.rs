@@ -1,8 +1,7 @@
 //! Knobs: representation and resolution of spectra.
 
 use super::Knob;
-use crate::plan::{self, Called};
-use crate::render::spliced;
+use crate::frame::{ActiveEffects, Frame};
 use crate::shot::{Accuracy, Shot, Spectra, Switch};
 use crate::spectrum::LineAxis;
 use crate::study::Start;
@@ -15,7 +14,7 @@ const SPLINE_WAVELENGTHS: [u32; 7] = [8, 11, 16, 31, 61, 81, 121];
 const GRID_WAVELENGTHS: [u32; 7] = [8, 11, 21, 42, 84, 168, 336];
 
 /// The knob `accuracy.spectra`, with its resolutions.
-pub(super) fn spectra(start: &Start<'_>, called: &Called) -> Knob {
+pub(super) fn spectra(start: &Start<'_>, called: &ActiveEffects) -> Knob {
     let mut knob = Knob::new(
         "accuracy.spectra",
         "shade",
@@ -75,7 +74,7 @@ pub(super) fn spectra(start: &Start<'_>, called: &Called) -> Knob {
 }
 
 /// The image with RGB colors and without shift, which RGB cannot represent.
-pub(in crate::study) fn without_shift(start: &Start<'_>, called: &Called) -> Variant {
+pub(in crate::study) fn without_shift(start: &Start<'_>, called: &ActiveEffects) -> Variant {
     let mut shot = Shot {
         accuracy: Accuracy {
             spectra: Spectra::Rgb,
@@ -107,8 +106,8 @@ pub(in crate::study) fn lines_seen(shot: &Shot, spacing_nm: f64) -> bool {
 }
 
 fn splices_shift(start: &Start<'_>) -> bool {
-    start.shot.splice.iter().any(|splice| {
-        let effects = spliced(&start.shot.effects, splice);
-        plan::called(start.shot, start.frame, &effects).is_ok_and(|called| called.doppler)
+    Frame::new(start.shot, start.frame).is_ok_and(|frame| {
+        let mut splices = frame.splices.iter();
+        splices.any(|splice| frame.active_effects(&splice.effects).doppler)
     })
 }

@@ -1,7 +1,6 @@
 //! What a caption says of one frame: the largest speed, the highest temperature, the time.
 
-use super::effects::is_black;
-use super::motion::{MotionError, celerity};
+use super::values::Frame;
 use crate::plot::quantity::without_zeros;
 use crate::relativity::Celerity;
 use crate::shot::{Shot, Switch};
@@ -11,7 +10,7 @@ const NEARLY_LIGHT: f64 = 0.999;
 
 /// What is told of one frame.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Facts {
+pub struct Caption {
     /// Number of the frame.
     pub frame: u32,
     /// The fastest motion of a model, light or background relative to the camera.
@@ -22,47 +21,35 @@ pub struct Facts {
     pub time_s: Option<f64>,
 }
 
-/// The facts of frame number `frame`.
-///
-/// # Errors
-/// Where a worldline has no velocity in this frame.
-pub fn facts(shot: &Shot, frame: u32) -> Result<Facts, MotionError> {
-    let frames = shot.shot.frames;
-    let camera = celerity(shot, "camera", frame)?;
-    let mut fastest = Celerity::REST;
-    for name in moving_things(shot, frame) {
-        let relative = celerity(shot, name, frame)?.seen_from(camera);
-        if relative.magnitude() > fastest.magnitude() {
-            fastest = relative;
+impl Caption {
+    /// What is told of frame number `number` of a shot, as text; of one that is refused its number.
+    pub fn text_of(shot: &Shot, number: u32) -> String {
+        let caption = Frame::new(shot, number).map(|frame| Self::new(&frame).text());
+        caption.unwrap_or_else(|_| format!("frame {number}"))
+    }
+
+    /// What is told of a frame.
+    pub fn new(frame: &Frame<'_>) -> Self {
+        let camera = frame.celerity(frame.camera.worldline);
+        let mut fastest = Celerity::REST;
+        for (_, worldline) in frame.riders() {
+            let relative = frame.celerity(worldline).seen_from(camera);
+            if relative.magnitude() > fastest.magnitude() {
+                fastest = relative;
+            }
+        }
+        let shown = frame.effects.thermal == Switch::Auto;
+        let materials = frame.materials.values().filter(|_| shown);
+        let temperatures = materials.filter_map(|m| Some(m.thermal?.temperature_k));
+        let stands_still = frame.shot.shot.time.is_constant();
+        Self {
+            frame: frame.number,
+            fastest,
+            temperature_k: temperatures.filter(|t| *t > 0.0).max_by(f64::total_cmp),
+            time_s: (!stands_still).then_some(frame.time_s),
         }
     }
-    let shown = shot.effects.thermal == Switch::Auto;
-    let materials = shot.material.values().filter(|_| shown);
-    let temperatures = materials.filter_map(|material| {
-        let temperature = material.thermal.as_ref()?.temperature.as_ref()?;
-        Some(temperature.at(frame, frames))
-    });
-    let time = &shot.shot.time;
-    Ok(Facts {
-        frame,
-        fastest,
-        temperature_k: temperatures.filter(|t| *t > 0.0).max_by(f64::total_cmp),
-        time_s: (!time.is_constant()).then(|| time.at(frame, frames)),
-    })
-}
 
-/// Names of the worldlines that something to see rides on.
-fn moving_things(shot: &Shot, frame: u32) -> impl Iterator<Item = &str> {
-    let models = shot.model.iter().map(|model| &model.worldline);
-    let lights = shot.light.iter().map(|light| &light.worldline);
-    let sky = (!is_black(shot, frame)).then_some(&shot.background.worldline);
-    models
-        .chain(lights)
-        .map(|name| name.as_deref().unwrap_or("lab"))
-        .chain(sky.map(|name| name.as_deref().unwrap_or("camera")))
-}
-
-impl Facts {
     /// `β 0.25`, or `γ 1.5e6` where β is nearly 1.
     pub fn speed(&self) -> String {
         let beta = self.fastest.beta().length();
@@ -74,7 +61,7 @@ impl Facts {
     }
 
     /// `frame 12   β 0.25   2000 K   t = 1.2 s`, without what there is nothing to say of.
-    pub fn caption(&self) -> String {
+    pub fn text(&self) -> String {
         let temperature = self.temperature_k.map(|t| format!("{} K", rounded(t)));
         let time = self.time_s.map(|t| format!("t = {} s", rounded(t)));
         let mut words = vec![format!("frame {}", self.frame), self.speed()];
@@ -143,7 +130,7 @@ mod tests {
              [worldline.b]\nvelocity = [-0.5, 0, 0]\n[[light]]\nkind = \"sun\"\ndirection = [0, 0, -1]\n\
              intensity = 1\nworldline = \"a\"",
         );
-        let caption = |frame| facts(&shot, frame).expect("moves").caption();
+        let caption = |frame| Caption::new(&Frame::new(&shot, frame).expect("it moves")).text();
         assert_eq!(caption(1), "frame 1   β 0");
         assert_eq!(caption(2), "frame 2   β 0.25");
         assert_eq!(caption(3), "frame 3   β 0.5");
@@ -157,7 +144,7 @@ mod tests {
              [material.hot]\nthermal = { temperature = { from = 0, to = 2000 } }\n\
              [material.warm]\nthermal = { temperature = { from = 0, to = 300 } }",
         );
-        let caption = |frame| facts(&shot, frame).expect("moves").caption();
+        let caption = |frame| Caption::new(&Frame::new(&shot, frame).expect("it moves")).text();
         assert_eq!(caption(1), "frame 1   γ 1.5e6   t = 0 s");
         assert_eq!(caption(3), "frame 3   γ 1.5e6   2000 K   t = 2.4 s");
     }
