@@ -1,11 +1,10 @@
 //! Frames of one sequence: each is the same picture alone and after its neighbours.
 use restframe::progress::{Event, FrameOutcome, Progress};
-use restframe::queue::{Force, Output, RenderedFrame, Run, Settings};
+use restframe::queue::{Force, Output, RenderedFrame, Run, RunError, Settings, Stop};
 use restframe::store::Request;
 use std::fs;
 use std::path::Path;
 use std::sync::Mutex;
-use std::sync::atomic::AtomicBool;
 
 const QUAD: &str = "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nusemtl red\nf 1 2 3 4\n";
 
@@ -37,7 +36,7 @@ exposure = 0
 
 fn render(shot: &Path, frames: &str, out: &Path) {
     let shot = restframe::shot::load(shot).unwrap();
-    let (progress, stop) = (Progress::silent(), AtomicBool::new(false));
+    let (progress, stop) = (Progress::silent(), Stop::default());
     let settings = Settings {
         request: Request {
             out: out.to_owned(),
@@ -97,7 +96,7 @@ fn a_run_to_memory_renders_frames_that_are_finished_on_the_disk() {
     let shot = folder.join("two.toml");
     let out = folder.join("out");
     render(&shot, "1-", &out);
-    let (progress, stop) = (Progress::silent(), AtomicBool::new(false));
+    let (progress, stop) = (Progress::silent(), Stop::default());
     let numbers = Mutex::new(Vec::new());
     let keep = |frame: RenderedFrame| numbers.lock().unwrap().push(frame.frame);
     let settings = Settings {
@@ -113,6 +112,46 @@ fn a_run_to_memory_renders_frames_that_are_finished_on_the_disk() {
     assert_eq!(*numbers.lock().unwrap(), [1, 2, 3]);
 }
 
+/// Nothing of them meets on a disk.
+#[test]
+fn shots_of_one_name_are_rendered_to_memory_and_refused_for_one_folder() {
+    let shots = ["one-name/a", "one-name/b"].map(|name| {
+        let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
+        fs::create_dir_all(&folder).unwrap();
+        let text = "[image]\nsize = [4, 2]\n[background]\nspectrum = 0.001\n[camera]\nposition = [0, 0, 0]\n[sensor]\nexposure = 0\n";
+        restframe::shot::parse(text, &folder.join("same.toml")).unwrap()
+    });
+    let (progress, stop) = (Progress::silent(), Stop::default());
+    let taken = Mutex::new(0);
+    let count = |_| *taken.lock().unwrap() += 1;
+    let to = |output| Settings {
+        output,
+        ..Settings::new(&progress, &stop)
+    };
+    let refused = Run::open(&shots, to(Output::Folder)).err();
+    assert!(matches!(refused, Some(RunError::Contradiction(_))));
+    let mut run = Run::open(&shots, to(Output::Memory(&count))).unwrap();
+    run.render_all();
+    assert_eq!(*taken.lock().unwrap(), 2);
+}
+
+#[test]
+fn a_run_is_refused_with_the_mistakes_of_every_shot() {
+    let folder = two("mistakes", "0.8", "0.2");
+    fs::remove_file(folder.join("left.obj")).unwrap();
+    let shot = restframe::shot::load(&folder.join("two.toml")).unwrap();
+    let (progress, stop) = (Progress::silent(), Stop::default());
+    let settings = Settings {
+        output: Output::Memory(&|_| ()),
+        ..Settings::new(&progress, &stop)
+    };
+    let refused = Run::open(&[shot.clone(), shot], settings).err();
+    let Some(RunError::Mistakes(all)) = refused else {
+        unreachable!("a model is missing: {refused:?}")
+    };
+    assert_eq!(all.len(), 2);
+}
+
 #[test]
 fn a_run_to_memory_has_the_bytes_of_one_to_a_folder_and_leaves_no_file() {
     let folder = two("memory", "0.8", "0.2");
@@ -126,7 +165,7 @@ fn a_run_to_memory_has_the_bytes_of_one_to_a_folder_and_leaves_no_file() {
             settled.lock().unwrap().push(*frame);
         }
     });
-    let stop = AtomicBool::new(false);
+    let stop = Stop::default();
     let frames = Mutex::new(Vec::new());
     let keep = |frame: RenderedFrame| frames.lock().unwrap().push(frame);
     let settings = Settings {

@@ -46,7 +46,7 @@ impl Job {
     ///
     /// # Errors
     /// A folder that cannot be read.
-    pub fn new(
+    pub(super) fn new(
         mut folder: ShotFolder,
         frames: Vec<u32>,
         output: Output<'_>,
@@ -104,7 +104,7 @@ impl Job {
     ///
     /// # Errors
     /// All its mistakes.
-    pub fn prepare(&mut self, force: Force) -> Result<(), Mistakes> {
+    pub(super) fn prepare(&mut self, force: Force) -> Result<(), Mistakes> {
         let wanted = self.tasks.iter().filter(|task| is_wanted(task, force));
         let frames: Vec<u32> = wanted.map(|task| task.frame).collect();
         if !frames.is_empty() {
@@ -112,11 +112,6 @@ impl Job {
             self.prepared = Some(Prepared::new(shot, frames.into_iter())?);
         }
         Ok(())
-    }
-
-    /// The shot with what it reads from other files, if they have been read.
-    pub fn prepared(&self) -> Option<&Prepared> {
-        self.prepared.as_ref()
     }
 
     /// Size, samples and layers of its images.

@@ -70,7 +70,7 @@ pub(super) fn render(
     let work_per_ray = work / (rays * batch.len() as f64);
     let watch = Watch {
         done: &|rays| settings.progress.advance(rays as f64 * work_per_ray),
-        stop: settings.stop,
+        stop: settings.stop.asked(),
     };
     let rendered = render_together(&members, &stage, options, watch);
     let mut together = rendered.map_err(|Stopped| Unrendered::Stopped)?;
