@@ -45,7 +45,7 @@ pub struct WideBand {
     pub light: Radiance,
 }
 
-/// The light of the pixel that `probe` tells of, with the same view, over a wide band.
+/// The light of the pixel of `probe`, seen in the same view, over a wide band.
 pub fn wide_band(frame: &Frame<'_>, probe: &Probe, view: &View<'_>, scene: &Scene) -> WideBand {
     let band_nm = band(probe, frame.sensor.window, view, scene);
     let count = ((band_nm[1] / band_nm[0]).ln() / SPACING).ceil() as u32;

@@ -1,4 +1,4 @@
-//! The jobs of a run: shots opened, frames chosen, and everything that is wrong with them.
+//! The jobs of a run: shots opened, frames chosen, and all errors.
 
 use super::frames::Resolved;
 use super::job::{Job, choose_shard};
@@ -7,18 +7,19 @@ use crate::shot::{Mistakes, Shot};
 use crate::store::{Names, ShotFolder};
 use std::collections::HashMap;
 
-/// The jobs of a run, and what was wrong with the others.
+/// The jobs of a run, and the errors of the others.
 #[derive(Default)]
 pub struct JobList {
     /// Those that can be rendered, in the order of the shots.
     pub jobs: Vec<Job>,
-    /// Mistakes of shots, in the order in which they were found. A run is not begun with any.
+    /// Mistakes of shots, in the order in which they were found. A run with any of them does not
+    /// begin.
     pub mistakes: Vec<Mistakes>,
-    /// How many shots have a folder that cannot be read; why, was reported.
+    /// Number of shots whose folder cannot be read. The reason has been reported.
     pub unreadable: usize,
 }
 
-/// A run that contradicts itself or its shots: nothing of it is begun.
+/// A run that contradicts itself or its shots, and does not begin.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error("{0}")]
 pub struct Contradiction(String);
@@ -64,8 +65,8 @@ impl JobList {
         Ok(list)
     }
 
-    /// Reads what the shots name, where a frame is to be rendered, and warns of what their pictures
-    /// will not show. Mistakes are added to the list.
+    /// Reads the files of the shots of which a frame is to be rendered, and warns of content that
+    /// their images will not show. Mistakes are added to the list.
     pub fn prepare(&mut self, settings: &Settings<'_>) {
         for job in &mut self.jobs {
             self.mistakes.extend(job.prepare(settings.force).err());
@@ -91,7 +92,7 @@ fn refuse_same_folder(shots: &[Shot]) -> Result<(), Contradiction> {
     Ok(())
 }
 
-/// The frames asked for that a shot has.
+/// The chosen frames that a shot has.
 fn choose(shot: &Shot, settings: &Settings<'_>) -> Result<Vec<u32>, Contradiction> {
     let frames = shot.shot.frames;
     let path = shot.path.display();

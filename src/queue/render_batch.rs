@@ -1,4 +1,4 @@
-//! A batch of frames, from scenes to films: what is traced of them is traced here.
+//! Rendering a batch of frames, from scenes to films. All tracing is done here.
 
 use super::batch::ClaimedFrame;
 use super::job::Job;
@@ -23,34 +23,34 @@ use std::time::Instant;
 
 /// A batch that has been rendered.
 pub(super) struct RenderedBatch {
-    /// Number of the first frame's job.
+    /// Index of the first frame's job.
     pub(super) first: usize,
     /// One for each frame.
     pub(super) scenes: Vec<Scene>,
     pub(super) stage: Aggregate,
     pub(super) together: Together,
-    /// What pictures show beside the films, one for each frame; None where the run was stopped
+    /// What images show besides their films, one for each frame; None if the run was stopped
     /// before.
     pub(super) probed: Vec<Option<Probed>>,
 }
 
-/// What the picture of a frame shows beside its film, looked up in the same scene and trees.
+/// What the image of a frame shows besides its film, computed from the same scene and trees.
 #[derive(Default)]
 pub(super) struct Probed {
     /// Plots of its insets.
     pub(super) insets: Vec<Option<Plot>>,
-    /// How much of its light was not followed, if that is much.
+    /// Share of its light that was not followed, if that is much.
     pub(super) left_out: Option<String>,
 }
 
-/// Why a batch gave no films.
+/// Reason why a batch gave no films.
 pub(super) enum Unrendered {
     Stopped,
-    /// This frame of the batch; the others may do.
+    /// This frame of the batch failed; the others may succeed.
     Failed(usize, RenderError),
 }
 
-/// Why a frame cannot be rendered.
+/// Reason why a frame cannot be rendered.
 #[derive(Debug, thiserror::Error)]
 pub(super) enum RenderError {
     /// Too large for this machine.
@@ -61,8 +61,8 @@ pub(super) enum RenderError {
     Mistakes(Box<Mistakes>),
 }
 
-/// Renders a batch, which is not empty. Bodies and trees are taken over from the image that the first
-/// frame's job rendered last.
+/// Renders a batch, which is not empty. Bodies and trees are taken over from the image that the
+/// first frame's job rendered last.
 pub(super) fn render(
     jobs: &mut [Job],
     batch: &[ClaimedFrame],
@@ -112,7 +112,7 @@ pub(super) fn render(
     })
 }
 
-/// Looks up what a picture shows beside its film; None if that takes time and the run is stopped.
+/// Computes what an image shows besides its film; None if that takes time and the run is stopped.
 fn probe(
     member: Member<'_>,
     stage: &Aggregate,
@@ -137,7 +137,7 @@ pub(super) fn stops(job: &Job, frame: &Frame<'_>) -> f64 {
     exposing.map_or(0.0, |exposing| exposing.stops(frame))
 }
 
-/// Finds a shot's exposure, once.
+/// Determines a shot's exposure, once.
 fn meter(job: &mut Job, progress: &Progress<'_>) -> Result<(), Mistakes> {
     let (None, Some(prepared)) = (&job.exposing, &job.prepared) else {
         return Ok(());
@@ -164,7 +164,7 @@ fn frames<'a>(jobs: &'a [Job], batch: &[ClaimedFrame]) -> Result<Vec<Frame<'a>>,
 }
 
 /// The scenes of a batch; bodies are taken over from the last one of the same shot, first from
-/// `kept`, which is of the first frame's.
+/// `kept`, which belongs to the first frame's job.
 fn scenes(
     jobs: &[Job],
     batch: &[ClaimedFrame],
@@ -184,7 +184,7 @@ fn scenes(
     Ok(scenes)
 }
 
-/// Bodies taken over from the last image where they stand as they stood, trees where they can be.
+/// Bodies taken over from the last image if they have not moved, trees if possible.
 fn stage(kept: Option<(Scene, Aggregate)>, scene: &Scene) -> Aggregate {
     match kept {
         Some((old, stage)) if Arc::ptr_eq(&old.geometry, &scene.geometry) => stage,

@@ -1,5 +1,5 @@
-//! A run: the frames of some shots rendered, batch by batch, beside other processes that may be at
-//! work on the same.
+//! A run: the frames of some shots rendered, batch by batch, beside other processes that may render
+//! the same shots.
 
 use super::batch::{ClaimedFrame, FrameTask, batches};
 use super::job::Job;
@@ -57,32 +57,32 @@ pub struct Run<'a> {
     jobs: Vec<Job>,
     settings: Settings<'a>,
     batches: VecDeque<Vec<FrameTask>>,
-    /// Tasks that other processes are at work on, to be looked at again.
+    /// Tasks that other processes have claimed, to be checked again.
     held: Vec<FrameTask>,
-    /// How many tasks there were when `batches` was made.
+    /// Number of tasks when `batches` was made.
     pass: usize,
     waits: usize,
 }
 
-/// Why a run is not begun.
+/// Reason why a run does not begin.
 #[derive(Debug, thiserror::Error)]
 pub enum RunError {
-    /// It contradicts itself or its shots.
+    /// The run contradicts itself or its shots.
     #[error(transparent)]
     Contradiction(#[from] Contradiction),
     /// Mistakes in a shot: the first that has any.
     #[error("{0}")]
     Mistakes(Box<Mistakes>),
-    /// Folders that cannot be read; why, was reported.
+    /// Folders cannot be read. The reasons have been reported.
     #[error("the folders of {0} shots cannot be read")]
     Folders(usize),
 }
 
 impl<'a> Run<'a> {
-    /// A run of some shots, opened and prepared.
+    /// Opens and prepares a run of some shots.
     ///
     /// # Errors
-    /// What is wrong with any of them: nothing is rendered then.
+    /// All errors of any of them: nothing is rendered then.
     pub fn open(shots: &[Shot], settings: Settings<'a>) -> Result<Self, RunError> {
         let mut list = JobList::open(shots, &settings)?;
         list.prepare(&settings);
@@ -95,8 +95,7 @@ impl<'a> Run<'a> {
         }
     }
 
-    /// A run of jobs that have been prepared. Makes their folders ready, and reports the frames
-    /// that are there already.
+    /// A run of prepared jobs. Prepares their folders, and reports frames that exist already.
     pub fn new(mut jobs: Vec<Job>, settings: Settings<'a>) -> Self {
         let (progress, force) = (settings.progress, settings.force);
         for job in &mut jobs {
@@ -140,8 +139,8 @@ impl<'a> Run<'a> {
         &self.jobs
     }
 
-    /// Renders until nothing is left to do for one more job, and returns it; each job once. None when
-    /// there is no other, or when the run was stopped.
+    /// Renders until nothing is left to do for one more job, and returns it; each job once. None if
+    /// there is no other, or if the run was stopped.
     pub fn next_finished(&mut self) -> Option<&mut Job> {
         loop {
             let is_finished = |job: &Job| !job.is_reported && job.is_settled();
@@ -165,7 +164,7 @@ impl<'a> Run<'a> {
         while self.next_finished().is_some() {}
     }
 
-    /// Renders the next batch, or waits for other processes; false when nothing is left.
+    /// Renders the next batch, or waits for other processes; false if nothing is left.
     fn next_batch(&mut self) -> bool {
         if let Some(batch) = self.batches.pop_front() {
             let claimed = self.claim(batch);
@@ -185,7 +184,8 @@ impl<'a> Run<'a> {
         true
     }
 
-    /// What of a batch is this process's to render. What others are at work on is held over.
+    /// The part of a batch that this process can claim. Frames claimed by others are checked again
+    /// later.
     fn claim(&mut self, batch: Vec<FrameTask>) -> Vec<ClaimedFrame> {
         let settings = &self.settings;
         let progress = settings.progress;
@@ -217,7 +217,7 @@ impl<'a> Run<'a> {
         claimed
     }
 
-    /// Renders and writes a batch; the claims are dropped with it. A frame that fails is reported, and
+    /// Renders and writes a batch, whose claims end with it. A frame that fails is reported, and
     /// the others are tried again.
     fn work(&mut self, mut batch: Vec<ClaimedFrame>) {
         let (jobs, settings) = (&mut self.jobs, &self.settings);
@@ -234,7 +234,7 @@ impl<'a> Run<'a> {
         }
     }
 
-    /// Waits for other processes, and says so once.
+    /// Waits for other processes, and reports that once.
     fn wait(&mut self, frames: usize) {
         const PAUSE: Duration = Duration::from_millis(100);
         if self.waits == 0 {

@@ -1,4 +1,4 @@
-//! A batch of films, from developing to files and records.
+//! Writing a batch of films: from development to files and records.
 
 use super::batch::{ClaimedFrame, FrameTask};
 use super::job::Job;
@@ -17,11 +17,11 @@ use rayon::prelude::*;
 use std::io;
 use std::time::{Duration, Instant};
 
-/// A frame, its scene, its film, and what its picture shows beside that.
+/// A frame, its scene, its film, and what its image shows besides.
 type Rendered<'a> = (ClaimedFrame, &'a Scene, Film, Probed);
 
-/// Films to files, as many at once as threads and memory allow; a frame is settled when it is on the
-/// disk.
+/// Writes films to files, as many at once as threads and memory allow; a frame is settled when it
+/// is on the disk.
 pub(super) fn write(
     jobs: &mut [Job],
     batch: Vec<ClaimedFrame>,
@@ -54,7 +54,7 @@ pub(super) fn write(
         if chunk.is_empty() || settings.is_stopped() && deadline.is_over() {
             break;
         }
-        // A picture that there is no room for need not be made.
+        // An image for which there is no room need not be made.
         let (lost, chunk): (Vec<_>, Vec<_>) = chunk
             .into_iter()
             .partition(|(claimed, ..)| jobs[claimed.task.job].halted.is_some());
@@ -124,7 +124,7 @@ fn encoded(
     Ok((made, new_record(job, &frame, &claimed.key)))
 }
 
-/// The files of a frame to where they go, then its record.
+/// Delivers the files of a frame to their destination, then its record.
 fn put(
     job: &mut Job,
     task: &FrameTask,
@@ -196,7 +196,7 @@ fn write_files(
     twice(|| manifest.append(record))
 }
 
-/// A frame is made and cannot be kept; where there is no room, its shot is done with.
+/// Settles a frame that was made but cannot be written; if there is no room, its shot is halted.
 fn unwritten(job: &mut Job, task: &FrameTask, error: &io::Error, settings: &Settings<'_>) {
     job.fail(task, &error.to_string(), settings.progress);
     if is_full(error) {
@@ -213,9 +213,9 @@ fn unwritten(job: &mut Job, task: &FrameTask, error: &io::Error, settings: &Sett
 /// lost; the run must end within 2 s.
 #[derive(Default)]
 struct ShutdownDeadline {
-    /// When the signal was first seen.
+    /// Time when the signal was first seen.
     since: Option<Instant>,
-    /// What the last films took, as many as threads.
+    /// Time that the last films took, as many as threads.
     last: Duration,
 }
 

@@ -15,7 +15,7 @@ use rayon::prelude::*;
 #[error("stopped")]
 pub struct Stopped;
 
-/// What of the time went into what: the shares add up to 1.
+/// Shares of the time, which add up to 1.
 pub(super) struct Shares {
     pub(super) trace: f64,
     pub(super) shade: f64,

@@ -1,4 +1,4 @@
-//! How many bounces leave out next to nothing of an image's light.
+//! The number of bounces beyond which almost none of an image's light is missing.
 
 use super::view::{RelativeMotions, Views};
 use super::{Member, View, channels};

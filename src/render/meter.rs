@@ -8,7 +8,7 @@ use crate::scene::{Library, Scene};
 use crate::shot::{LARGEST_SIDE, Mistakes, Shot};
 use crate::trace::build_aggregate;
 
-/// What metering found, and what it built on the way: frame 1, for whoever renders it next.
+/// Result of metering, with the scene of frame 1, so that rendering it need not repeat the work.
 pub struct Metered {
     /// Exposure in stops; None if the image is black.
     pub stops: Option<f64>,

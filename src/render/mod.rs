@@ -1,4 +1,4 @@
-//! The renderer on one page: plan, trace, shade, film.
+//! The renderer on one page: trace, shade, film.
 
 use crate::accel::Aggregate;
 use crate::color::spaces;

@@ -1,4 +1,4 @@
-//! One image under one set of effects: everything a ray needs.
+//! The view of one image under one set of effects: everything that a ray needs.
 
 use super::Member;
 use crate::accel::Aggregate;
@@ -14,11 +14,11 @@ use std::sync::{Arc, OnceLock};
 pub struct View<'a> {
     scene: &'a Scene,
     stage: &'a Aggregate,
-    /// What is simulated.
+    /// The effects that are simulated.
     pub effects: ActiveEffects,
     motion: Arc<RelativeMotion>,
     shader: Shader,
-    /// Made when first asked for.
+    /// Made on first use.
     curves: OnceLock<Shader>,
     bounces: u32,
     cutoff: f64,
@@ -47,8 +47,8 @@ impl<'a> View<'a> {
         stage: &'a Aggregate,
     ) -> Self {
         let effects = frame.active_effects(switches);
-        // Where nothing moves the links are translations, which cost nothing; light still takes
-        // its time to the camera.
+        // If nothing moves, the links are translations, which cost nothing; light still takes its
+        // time to the camera.
         let motion = motions.under(switches.geometry, scene, stage);
         let bounces = if effects.mirror || effects.refraction {
             switches.bounces
@@ -106,8 +106,7 @@ impl<'a> View<'a> {
         Shader::new(self.scene, &settings)
     }
 
-    /// The shader of curves over the sensor's own window, made once for all pixels that are asked
-    /// about.
+    /// The shader of curves over the sensor's own window, made once for all pixels.
     pub fn curves(&self, frame: &Frame<'_>) -> &Shader {
         self.curves
             .get_or_init(|| self.shader_over(frame.sensor.window, frame.accuracy.wavelengths))
@@ -134,7 +133,7 @@ impl<'a> View<'a> {
         Shader::new(self.scene, &settings)
     }
 
-    /// How its worldlines stand to each other.
+    /// Relative motion of its worldlines.
     pub fn spacetime(&self) -> &Spacetime {
         &self.motion.spacetime
     }
@@ -182,10 +181,10 @@ impl<'a> View<'a> {
     }
 }
 
-/// How the worldlines of a scene stand to each other.
+/// Relative motion of the worldlines of a scene.
 struct RelativeMotion {
     spacetime: Spacetime,
-    /// Largest |ln D| of any worldline to the camera's.
+    /// Largest |ln D| of any worldline relative to the camera's.
     to_camera: f64,
     /// Largest |ln D| between any body and any lamp.
     to_lamps: f64,
