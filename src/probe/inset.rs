@@ -35,7 +35,7 @@ const MOST: f64 = 8192.0;
 /// too small to be read. Exposure is in stops.
 pub fn insets(
     member: Member<'_>,
-    stage: &Aggregate,
+    aggregate: &Aggregate,
     exposure: f64,
     size: [u32; 2],
 ) -> Vec<Option<Plot>> {
@@ -55,7 +55,7 @@ pub fn insets(
         let place = match known {
             Some(place) => place,
             None => {
-                let view = View::new(frame, &effects, scene, stage);
+                let view = View::new(frame, &effects, scene, aggregate);
                 views.push((effects, view));
                 views.len() - 1
             }

@@ -27,7 +27,7 @@ pub(super) struct RenderedBatch {
     pub(super) first: usize,
     /// One for each frame.
     pub(super) scenes: Vec<Scene>,
-    pub(super) stage: Aggregate,
+    pub(super) aggregate: Aggregate,
     pub(super) together: Together,
     /// What images show besides their films, one for each frame; None if the run was stopped
     /// before.
@@ -79,7 +79,7 @@ pub(super) fn render(
     let jobs = &*jobs;
     let frames = frames(jobs, batch)?;
     let scenes = scenes(jobs, batch, &frames, kept.as_ref().map(|(scene, _)| scene))?;
-    let stage = stage(kept, &scenes[0]);
+    let aggregate = aggregate(kept, &scenes[0]);
     let prepare = begun.elapsed().as_secs_f64();
     let member = |(frame, scene)| Member { frame, scene };
     let members: Vec<Member<'_>> = frames.iter().zip(&scenes).map(member).collect();
@@ -91,7 +91,7 @@ pub(super) fn render(
         done: &|rays| settings.progress.advance(rays as f64 * work_per_ray),
         stop: settings.stop,
     };
-    let rendered = render_together(&members, &stage, options, watch);
+    let rendered = render_together(&members, &aggregate, options, watch);
     let mut together = rendered.map_err(|Stopped| Unrendered::Stopped)?;
     together.prepare += prepare;
     let begun = Instant::now();
@@ -99,7 +99,7 @@ pub(super) fn render(
     let films = batch.par_iter().zip(&members).zip(&together.films);
     let probed = films.map(|((claimed, member), film)| {
         let exposure = stops(&jobs[claimed.task.job], member.frame);
-        probe(*member, &stage, film, exposure, stop)
+        probe(*member, &aggregate, film, exposure, stop)
     });
     let probed = probed.collect();
     together.shade += begun.elapsed().as_secs_f64();
@@ -107,7 +107,7 @@ pub(super) fn render(
         probed,
         first,
         scenes,
-        stage,
+        aggregate,
         together,
     })
 }
@@ -115,7 +115,7 @@ pub(super) fn render(
 /// Computes what an image shows besides its film; None if that takes time and the run is stopped.
 fn probe(
     member: Member<'_>,
-    stage: &Aggregate,
+    aggregate: &Aggregate,
     film: &Film,
     exposure: f64,
     stop: &AtomicBool,
@@ -126,8 +126,8 @@ fn probe(
     }
     let size = [film.width, film.height];
     Some(Probed {
-        insets: probe::insets(member, stage, exposure, size),
-        left_out: left_out_warning(member, stage, film),
+        insets: probe::insets(member, aggregate, exposure, size),
+        left_out: left_out_warning(member, aggregate, film),
     })
 }
 
@@ -185,11 +185,11 @@ fn scenes(
 }
 
 /// Bodies taken over from the last image if they have not moved, trees if possible.
-fn stage(kept: Option<(Scene, Aggregate)>, scene: &Scene) -> Aggregate {
+fn aggregate(kept: Option<(Scene, Aggregate)>, scene: &Scene) -> Aggregate {
     match kept {
-        Some((old, stage)) if Arc::ptr_eq(&old.geometry, &scene.geometry) => stage,
+        Some((old, aggregate)) if Arc::ptr_eq(&old.geometry, &scene.geometry) => aggregate,
         other => {
-            let earlier = other.as_ref().map(|(_, stage)| stage);
+            let earlier = other.as_ref().map(|(_, aggregate)| aggregate);
             build_aggregate(&scene.geometry, earlier)
         }
     }

@@ -31,7 +31,7 @@ pub(super) fn write(
     let RenderedBatch {
         first,
         scenes,
-        stage,
+        aggregate,
         together,
         probed,
     } = rendered;
@@ -100,7 +100,7 @@ pub(super) fn write(
         deadline.last = begun.elapsed();
     }
     drop(rest);
-    jobs[first].kept = scenes.into_iter().next().map(|scene| (scene, stage));
+    jobs[first].kept = scenes.into_iter().next().map(|scene| (scene, aggregate));
 }
 
 /// A film as files, and their record but for its files, times and warnings.

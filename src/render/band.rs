@@ -1,6 +1,6 @@
 //! Bands of rows, in which threads write to films.
 
-use super::Options;
+use super::options::Options;
 use crate::film::{Channels, Film, Layers, LeftOut};
 use crate::shot::Layer;
 

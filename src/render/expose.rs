@@ -2,18 +2,15 @@
 //! every image.
 
 use super::band::{BAND, bands};
+use super::options::Options;
 use super::paint::{Painter, Row};
 use super::profile::Lap;
+use super::profile::Profile;
 use super::view::{View, Views};
-use super::{Options, Profile, Watch};
+use super::watch::{Stopped, Watch};
 use crate::film::{Film, LeftOut};
 use crate::trace::Samples;
 use rayon::prelude::*;
-
-/// Rendering was asked to stop.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
-#[error("stopped")]
-pub struct Stopped;
 
 /// Shares of the time, which add up to 1.
 pub(super) struct Shares {

@@ -1,6 +1,7 @@
 //! Metering: exposure from a small render of frame 1.
 
-use super::{Options, render};
+use super::options::Options;
+use super::render_image::render;
 use crate::accel::Aggregate;
 use crate::film::auto_exposure;
 use crate::frame::Frame;
@@ -15,7 +16,7 @@ pub struct Metered {
     /// The scene of frame 1.
     pub scene: Scene,
     /// Its bodies.
-    pub stage: Aggregate,
+    pub aggregate: Aggregate,
 }
 
 /// Exposure metered on a small render of frame 1, whatever frames are asked for.
@@ -25,7 +26,7 @@ pub struct Metered {
 pub fn metered_exposure(shot: &Shot, library: &Library) -> Result<Metered, Mistakes> {
     let frame = Frame::new(shot, 1)?;
     let scene = Scene::resolve(&frame, library, None)?;
-    let stage = build_aggregate(&scene.geometry, None);
+    let aggregate = build_aggregate(&scene.geometry, None);
     let [width, height] = frame.image.size.map(f64::from);
     let rows = (METER_WIDTH * height / width)
         .round()
@@ -36,11 +37,11 @@ pub fn metered_exposure(shot: &Shot, library: &Library) -> Result<Metered, Mista
         samples: 1,
         layers: Vec::new(),
     };
-    let film = render(&frame, &scene, &stage, &options, &|_| ());
+    let film = render(&frame, &scene, &aggregate, &options, &|_| ());
     Ok(Metered {
         stops: auto_exposure(&film),
         scene,
-        stage,
+        aggregate,
     })
 }
 

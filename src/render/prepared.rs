@@ -1,6 +1,6 @@
 //! Shots read with all files that they name and checked frame by frame; and their exposure.
 
-use super::metered_exposure;
+use super::meter::metered_exposure;
 use crate::accel::Aggregate;
 use crate::frame::{Frame, Frames, refuse_shifted_rgb};
 use crate::scene::{Library, Scene};
@@ -99,7 +99,7 @@ impl Prepared {
             Exposure::Auto(_) => {
                 let metered = metered_exposure(&self.shot, &self.library)?;
                 let exposing = metered.stops.map_or(Exposing::Black, Exposing::Metered);
-                Ok((exposing, Some((metered.scene, metered.stage))))
+                Ok((exposing, Some((metered.scene, metered.aggregate))))
             }
         }
     }

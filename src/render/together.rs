@@ -1,14 +1,13 @@
 //! Several images at once: those that share shade trees are traced once and shaded separately.
 
 use super::band::empty_film;
-use super::expose::{Stopped, expose};
+use super::expose::expose;
+use super::options::{Options, channels};
 use super::profile::Profile;
 use super::view::{RelativeMotions, Views};
-use super::{Options, channels};
+use super::watch::{Member, Stopped, Watch};
 use crate::accel::Aggregate;
 use crate::film::Film;
-use crate::frame::Frame;
-use crate::scene::Scene;
 use crate::trace::Samples;
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -18,24 +17,6 @@ use std::time::Instant;
 /// dozen lamps and materials, 100 MB for as many as are tabulated. If more is needed, the trace is
 /// repeated.
 const SHADERS: usize = 256 << 20;
-
-/// One of the images that share a trace. They may be of different shots.
-#[derive(Clone, Copy)]
-pub struct Member<'a> {
-    /// The frame.
-    pub frame: &'a Frame<'a>,
-    /// Its scene: as the other members', but for what shading alone reads.
-    pub scene: &'a Scene,
-}
-
-/// Observer of the work: receives progress, and can stop it.
-#[derive(Clone, Copy)]
-pub struct Watch<'a> {
-    /// Called with the number of finished rays, each counted once for every image, from any thread.
-    pub done: &'a (dyn Fn(u64) + Sync),
-    /// If it becomes true, the work ends within milliseconds.
-    pub stop: &'a AtomicBool,
-}
 
 /// Images rendered together, and the time that they took.
 #[derive(Debug, Default)]
@@ -60,23 +41,23 @@ pub struct Together {
 /// When asked to stop.
 pub fn render_together(
     members: &[Member<'_>],
-    stage: &Aggregate,
+    aggregate: &Aggregate,
     options: &Options,
     watch: Watch<'_>,
 ) -> Result<Together, Stopped> {
-    render_all(members, stage, options, watch, None)
+    render_all(members, aggregate, options, watch, None)
 }
 
 /// Renders one image.
 pub(super) fn render_one(
     member: Member<'_>,
-    stage: &Aggregate,
+    aggregate: &Aggregate,
     options: &Options,
     done: &(dyn Fn(u64) + Sync),
     profile: Option<&Profile>,
 ) -> Film {
     let stop = &AtomicBool::new(false);
-    let rendered = render_all(&[member], stage, options, Watch { done, stop }, profile)
+    let rendered = render_all(&[member], aggregate, options, Watch { done, stop }, profile)
         .expect("nobody else holds what would stop it");
     let film = rendered.films.into_iter().next();
     film.expect("each member has a film")
@@ -84,7 +65,7 @@ pub(super) fn render_one(
 
 fn render_all(
     members: &[Member<'_>],
-    stage: &Aggregate,
+    aggregate: &Aggregate,
     options: &Options,
     watch: Watch<'_>,
     profile: Option<&Profile>,
@@ -97,7 +78,7 @@ fn render_all(
     let mut rest = members;
     while !rest.is_empty() {
         let begun = Instant::now();
-        let group = prepare(rest, stage, options, watch.stop)?;
+        let group = prepare(rest, aggregate, options, watch.stop)?;
         let (now, later) = rest.split_at(group.len());
         rest = later;
         let film = |member: &Member<'_>| empty_film(options, channels(member.frame.sensor.color));
@@ -121,7 +102,7 @@ fn render_all(
 /// Views of the first member and of as many more as memory allows at once.
 fn prepare<'a>(
     members: &[Member<'a>],
-    stage: &'a Aggregate,
+    aggregate: &'a Aggregate,
     options: &Options,
     stop: &AtomicBool,
 ) -> Result<Vec<Views<'a>>, Stopped> {
@@ -130,7 +111,7 @@ fn prepare<'a>(
         if stop.load(Ordering::Relaxed) {
             return Err(Stopped);
         }
-        Ok(Views::new(*member, stage, options.height, &motions))
+        Ok(Views::new(*member, aggregate, options.height, &motions))
     };
     let Some((first, others)) = members.split_first() else {
         return Ok(Vec::new());

@@ -1,6 +1,6 @@
 //! The view of one image under one set of effects: everything that a ray needs.
 
-use super::Member;
+use super::watch::Member;
 use crate::accel::Aggregate;
 use crate::frame::{ActiveEffects, Frame, Sensor};
 use crate::scene::{Material, Scene};
@@ -13,7 +13,7 @@ use std::sync::{Arc, OnceLock};
 /// One image under one set of effects: everything that a ray needs.
 pub struct View<'a> {
     scene: &'a Scene,
-    stage: &'a Aggregate,
+    aggregate: &'a Aggregate,
     /// The effects that are simulated.
     pub effects: ActiveEffects,
     motion: Arc<RelativeMotion>,
@@ -33,9 +33,15 @@ impl<'a> View<'a> {
         frame: &Frame<'_>,
         switches: &Effects,
         scene: &'a Scene,
-        stage: &'a Aggregate,
+        aggregate: &'a Aggregate,
     ) -> Self {
-        Self::sharing(&RelativeMotions::default(), frame, switches, scene, stage)
+        Self::sharing(
+            &RelativeMotions::default(),
+            frame,
+            switches,
+            scene,
+            aggregate,
+        )
     }
 
     /// [`View::new`] among images in which worldlines stand to each other as `motions` has it.
@@ -44,12 +50,12 @@ impl<'a> View<'a> {
         frame: &Frame<'_>,
         switches: &Effects,
         scene: &'a Scene,
-        stage: &'a Aggregate,
+        aggregate: &'a Aggregate,
     ) -> Self {
         let effects = frame.active_effects(switches);
         // If nothing moves, the links are translations, which cost nothing; light still takes its
         // time to the camera.
-        let motion = motions.under(switches.geometry, scene, stage);
+        let motion = motions.under(switches.geometry, scene, aggregate);
         let bounces = if effects.mirror || effects.refraction {
             switches.bounces
         } else {
@@ -69,7 +75,7 @@ impl<'a> View<'a> {
         Self {
             reaches,
             scene,
-            stage,
+            aggregate,
             effects,
             motion,
             shader,
@@ -147,7 +153,7 @@ impl<'a> View<'a> {
     pub fn tracer(&self) -> Tracer<'_> {
         Tracer {
             scene: self.scene,
-            aggregate: self.stage,
+            aggregate: self.aggregate,
             spacetime: self.spacetime(),
             shadows: self.effects.shadows,
             bounces: self.bounces,
@@ -199,7 +205,7 @@ pub(super) struct RelativeMotions {
 }
 
 impl RelativeMotions {
-    fn under(&self, geometry: Switch, scene: &Scene, stage: &Aggregate) -> Arc<RelativeMotion> {
+    fn under(&self, geometry: Switch, scene: &Scene, aggregate: &Aggregate) -> Arc<RelativeMotion> {
         let made = match geometry {
             Switch::Auto => &self.finite,
             Switch::Off => &self.snapshot,
@@ -213,7 +219,7 @@ impl RelativeMotions {
                     scene.camera.worldline,
                     0..scene.worldlines.len(),
                 ),
-                to_lamps: stage
+                to_lamps: aggregate
                     .worldlines()
                     .map(|body| largest_rapidity(scene, body, lamps()))
                     .fold(0.0, f64::max),
@@ -246,12 +252,12 @@ impl<'a> Views<'a> {
     /// Prepares an image of `height` rows.
     pub(super) fn new(
         member: Member<'a>,
-        stage: &'a Aggregate,
+        aggregate: &'a Aggregate,
         height: u32,
         motions: &RelativeMotions,
     ) -> Self {
         let Member { frame, scene } = member;
-        let view = |switches: &Effects| View::sharing(motions, frame, switches, scene, stage);
+        let view = |switches: &Effects| View::sharing(motions, frame, switches, scene, aggregate);
         let splices = frame.splices.iter();
         Self {
             whole: view(&frame.effects),
