@@ -1,9 +1,9 @@
 //! Knobs: the depth to which light is followed through mirrors and glass.
 
-use super::Knob;
+use super::knob::Knob;
 use crate::frame::ActiveEffects;
 use crate::shot::MOST_BOUNCES;
-use crate::study::Start;
+use crate::study::start::Start;
 use crate::study::timed_render::Variant;
 
 const BOUNCES: [u32; 7] = [0, 1, 2, 3, 4, 8, 16];

@@ -1,10 +1,10 @@
 //! Knobs: representation and resolution of spectra.
 
-use super::Knob;
+use super::knob::Knob;
 use crate::frame::{ActiveEffects, Frame};
 use crate::shot::{Accuracy, Shot, Spectra, Switch};
 use crate::spectrum::LineAxis;
-use crate::study::Start;
+use crate::study::start::Start;
 use crate::study::timed_render::Variant;
 
 /// Spacings of lines, nm; the paper's is 5.
