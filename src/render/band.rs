@@ -1,6 +1,6 @@
 //! Bands of rows, in which threads write to films.
 
-use super::options::Options;
+use super::Options;
 use crate::film::{Channels, Film, Layers, LeftOut};
 use crate::shot::Layer;
 

@@ -1,6 +1,6 @@
 //! From a film to the files of one frame, as bytes: development, insets, encoding.
 
-use super::options::development;
+use super::development;
 use crate::film::{Film, develop, to_rgb8};
 use crate::frame::{Frame, Sensor};
 use crate::image::{EncodeError, Metadata, SOFTWARE, exr, png};

@@ -2,12 +2,11 @@
 //! every image.
 
 use super::band::{BAND, bands};
-use super::options::Options;
 use super::paint::{Painter, Row};
 use super::profile::Lap;
-use super::profile::Profile;
 use super::view::{View, Views};
 use super::watch::{Stopped, Watch};
+use super::{Options, Profile};
 use crate::film::{Film, LeftOut};
 use crate::trace::Samples;
 use rayon::prelude::*;

@@ -1,6 +1,6 @@
 //! The light path from a surface to the camera, in the lab.
 
-use super::view::View;
+use super::View;
 use crate::relativity::Event;
 use crate::trace::Surface;
 use glam::DVec3;

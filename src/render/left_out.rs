@@ -1,8 +1,7 @@
 //! The number of bounces beyond which almost none of an image's light is missing.
 
-use super::options::channels;
-use super::view::{RelativeMotions, View, Views};
-use super::watch::Member;
+use super::view::{RelativeMotions, Views};
+use super::{Member, View, channels};
 use crate::accel::Aggregate;
 use crate::film::{Channels, Film, LeftOut, SILENT};
 use crate::shade::ShadeScratch;

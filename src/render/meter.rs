@@ -1,7 +1,6 @@
 //! Metering: exposure from a small render of frame 1.
 
-use super::options::Options;
-use super::render_image::render;
+use super::{Options, render};
 use crate::accel::Aggregate;
 use crate::film::auto_exposure;
 use crate::frame::Frame;

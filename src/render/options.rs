@@ -1,8 +1,6 @@
-//! Size and quality of an image, and what follows from the sensor: channels and development of films.
+//! Size and quality of an image.
 
-use crate::color::spaces;
-use crate::film::{Channels, Development};
-use crate::shot::{Layer, SensorColor};
+use crate::shot::Layer;
 
 /// Size and quality of an image, as given on the command line or by the shot.
 #[derive(Debug, Clone, PartialEq)]
@@ -28,25 +26,4 @@ pub fn film_bytes(options: &Options) -> u64 {
     let layers = LAYERS.iter().filter(|layer| options.layers.contains(layer));
     let pixel = size_of::<[f32; 3]>() + size_of::<f32>() * layers.count();
     u64::from(options.width) * u64::from(options.height) * pixel as u64
-}
-
-/// The channels of a sensor's films.
-pub fn channels(color: SensorColor) -> Channels {
-    match color {
-        SensorColor::Cie1931 => Channels::Xyz,
-        SensorColor::Bands => Channels::Bands,
-    }
-}
-
-/// Parameters for developing a sensor's films.
-pub fn development(color: SensorColor, exposure_stops: f64) -> Development {
-    const IDENTITY: [[f64; 3]; 3] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
-    Development {
-        rgb_from_xyz: match channels(color) {
-            Channels::Xyz => spaces::RGB_FROM_XYZ,
-            Channels::Bands => IDENTITY,
-        },
-        exposure_stops,
-        encode: spaces::encode,
-    }
 }

@@ -1,6 +1,6 @@
 //! Shots read with all files that they name and checked frame by frame; and their exposure.
 
-use super::meter::metered_exposure;
+use super::metered_exposure;
 use crate::accel::Aggregate;
 use crate::frame::{Frame, Frames, refuse_shifted_rgb};
 use crate::scene::{Library, Scene};

@@ -2,12 +2,14 @@
 
 use super::band::empty_film;
 use super::expose::expose;
-use super::options::{Options, channels};
 use super::profile::Profile;
 use super::view::{RelativeMotions, Views};
 use super::watch::{Member, Stopped, Watch};
+use super::{Options, channels};
 use crate::accel::Aggregate;
 use crate::film::Film;
+use crate::frame::Frame;
+use crate::scene::Scene;
 use crate::trace::Samples;
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -48,8 +50,33 @@ pub fn render_together(
     render_all(members, aggregate, options, watch, None)
 }
 
+/// Renders one image. `done` is told of finished rays, from any thread.
+pub fn render(
+    frame: &Frame<'_>,
+    scene: &Scene,
+    aggregate: &Aggregate,
+    options: &Options,
+    done: &(dyn Fn(u64) + Sync),
+) -> Film {
+    let member = Member { frame, scene };
+    render_one(member, aggregate, options, done, None)
+}
+
+/// [`render`], with its seconds counted in `profile` if there is one, which takes a little longer.
+pub fn render_profiled(
+    frame: &Frame<'_>,
+    scene: &Scene,
+    aggregate: &Aggregate,
+    options: &Options,
+    done: &(dyn Fn(u64) + Sync),
+    profile: Option<&Profile>,
+) -> Film {
+    let member = Member { frame, scene };
+    render_one(member, aggregate, options, done, profile)
+}
+
 /// Renders one image.
-pub(super) fn render_one(
+fn render_one(
     member: Member<'_>,
     aggregate: &Aggregate,
     options: &Options,

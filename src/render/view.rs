@@ -1,6 +1,6 @@
 //! The view of one image under one set of effects: everything that a ray needs.
 
-use super::watch::Member;
+use super::Member;
 use crate::accel::Aggregate;
 use crate::frame::{ActiveEffects, Frame, Sensor};
 use crate::scene::{Material, Scene};

@@ -1,4 +1,4 @@
-//! The images of a render, and the observer of the work.
+//! An image to render, who hears of its progress, and who may stop it.
 
 use crate::frame::Frame;
 use crate::scene::Scene;

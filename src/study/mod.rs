@@ -9,19 +9,18 @@
 mod compare_1990;
 pub mod displacement;
 mod effects;
-mod error;
 mod errors;
 mod interleaved_timing;
 mod knobs;
 mod ranking;
 pub mod report;
 pub mod results;
-mod run;
 pub mod spheres;
 mod start;
 mod sweep;
 mod timed_render;
+mod whole;
 
-pub use error::StudyError;
 pub use results::Study;
-pub use run::{Request, study};
+pub use start::{Request, StudyError};
+pub use whole::study;

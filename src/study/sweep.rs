@@ -1,12 +1,11 @@
 //! Measurement of one knob: times, memory and errors of its settings.
 
-use super::error::StudyError;
 use super::errors::{color_differences, errors};
 use super::interleaved_timing::{Measured, measure};
 use super::knobs::Knob;
-use super::ranking;
 use super::results::{Errors, Point, Sweep};
 use super::timed_render::{Run, Subject, Variant, phase};
+use super::{StudyError, ranking};
 use crate::color::spaces;
 use crate::film::{Channels, Developed, Film, develop};
 use crate::render::development;

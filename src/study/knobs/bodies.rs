@@ -1,6 +1,6 @@
 //! Knob: triangles of spheres.
 
-use super::knob::Knob;
+use super::Knob;
 use crate::scene::Scene;
 use crate::study::displacement::displacement_of_spheres;
 use crate::study::spheres;

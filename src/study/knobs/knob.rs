@@ -1,4 +1,4 @@
-//! A knob, and the settings that are compared.
+//! A knob of accuracy before it is measured.
 
 use crate::render::View;
 use crate::study::displacement::Displacement;

@@ -1,6 +1,6 @@
 //! Knobs: the depth to which light is followed through mirrors and glass.
 
-use super::knob::Knob;
+use super::Knob;
 use crate::frame::ActiveEffects;
 use crate::shot::MOST_BOUNCES;
 use crate::study::start::Start;

@@ -1,6 +1,6 @@
 //! Knobs: samples, filter and files of an image.
 
-use super::knob::Knob;
+use super::Knob;
 use crate::render::Options;
 use crate::shot::{Depth, Filter, Format};
 use crate::study::start::Start;

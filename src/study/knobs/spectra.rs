@@ -1,6 +1,6 @@
 //! Knobs: representation and resolution of spectra.
 
-use super::knob::Knob;
+use super::Knob;
 use crate::frame::{ActiveEffects, Frame};
 use crate::shot::{Accuracy, Shot, Spectra, Switch};
 use crate::spectrum::LineAxis;

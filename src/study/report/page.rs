@@ -1,7 +1,6 @@
-//! The report as a page, and as JSON.
+//! The report as a page and as JSON.
 
-use super::finite::finite;
-use super::{advice, costs, head, sweep};
+use super::{advice, costs, finite, head, sweep};
 use crate::study::results::Study;
 use maud::{DOCTYPE, html as markup};
 
@@ -33,7 +32,7 @@ pub fn html(study: &Study) -> String {
 /// written as the greatest f64, since JSON has no word for them; `null` means only that there is no
 /// value.
 pub fn json(study: &Study) -> String {
-    let study = finite(study);
+    let study = finite::finite(study);
     let mut text =
         serde_json::to_string_pretty(&study).expect("a study has no maps, and nothing to fail");
     text.push('\n');

@@ -1,35 +1,19 @@
-//! One study from beginning to end: references, sweeps, effects, results.
+//! A study of one image: every knob, every effect, the phases of its time.
 
 use super::compare_1990::Compared;
-use super::error::StudyError;
 use super::interleaved_timing::{Measured, measure, median};
 use super::knobs::KNOBS;
-use super::results::Study;
-use super::results::{Machine, Noise, PhaseTime};
-use super::start::Start;
+use super::results::{Machine, Noise, PhaseTime, Study};
+use super::start::{Request, Start, StudyError};
 use super::timed_render::{Bodies, PHASES, Subject, Variant};
 use super::{effects, knobs, ranking, sweep};
 use crate::frame::{ActiveEffects, Frame};
-use crate::render::{Options, Prepared};
+use crate::render::Prepared;
 use crate::scene::Scene;
 use crate::shot::{Accuracy, Shot, Spectra};
 use crate::store::Names;
 use crate::trace::build_aggregate;
-use std::path::PathBuf;
 use std::sync::Arc;
-
-/// What to study.
-#[derive(Debug, Clone)]
-pub struct Request {
-    /// Frame number, one of those of the shot.
-    pub frame: u32,
-    /// Size and samples of the image.
-    pub options: Options,
-    /// Number of renders of each setting, at least 1.
-    pub repeats: u32,
-    /// Scratch folder; its files are written only to time writing.
-    pub scratch: PathBuf,
-}
 
 /// Studies one image. `news` receives a line on each step.
 ///

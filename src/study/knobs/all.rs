@@ -1,4 +1,4 @@
-//! All knobs.
+//! All knobs, in the order of a report.
 
 use super::knob::Knob;
 use super::{bodies, mirrors, pixels, spectra};
