@@ -123,10 +123,10 @@ fn second_worldline(
     let called = others > 0;
     let off = if called {
         let scene = Scene::resolve(&Frame::new(&shot, start.frame)?, library, None)?;
-        let stage = build_aggregate(&scene.geometry, None);
+        let aggregate = build_aggregate(&scene.geometry, None);
         Variant {
             shot,
-            bodies: Arc::new(Bodies { scene, stage }),
+            bodies: Arc::new(Bodies { scene, aggregate }),
             ..on.clone()
         }
     } else {

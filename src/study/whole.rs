@@ -32,12 +32,12 @@ pub fn study(
     let (exposing, _) = prepared.exposure()?;
     let subject = Subject::new(&frame, &exposing, request.scratch.clone());
     let scene = Scene::resolve(&frame, &prepared.library, None)?;
-    let stage = build_aggregate(&scene.geometry, None);
+    let aggregate = build_aggregate(&scene.geometry, None);
     let start = Start {
         shot,
         frame: frame.number,
         options: request.options.clone(),
-        bodies: Arc::new(Bodies { scene, stage }),
+        bodies: Arc::new(Bodies { scene, aggregate }),
     };
     news("what is compared with the paper, and how much equal work differs");
     let compared = compare(&start, &called, &subject, request.repeats)?;
