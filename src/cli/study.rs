@@ -83,8 +83,8 @@ fn frame(prepared: &Prepared, asked: Option<u32>) -> Result<u32, Failed> {
     let mut all = Frames::new(shot);
     for number in 1..=frames {
         let frame = all.at(number).map_err(|m| mistaken(&m))?;
-        let called = frame.active_effects(&frame.effects);
-        most = most.max((called.count(), number));
+        let effects = frame.active_effects(&frame.effects);
+        most = most.max((effects.count(), number));
     }
     Ok(most.1)
 }

@@ -37,7 +37,7 @@ pub struct FrameForecast {
     /// Its number.
     pub frame: u32,
     /// What is simulated in it, and why.
-    pub called: ActiveEffects,
+    pub effects: ActiveEffects,
     /// Whether it has to be rendered.
     pub status: Status,
     /// Number of its trace, in the order of their first frames.
@@ -154,12 +154,12 @@ impl<'a> Forecast<'a> {
     fn frame(&self, frames: &mut Frames<'_>, place: usize) -> Result<FrameForecast, Mistakes> {
         let (folder, frame) = (self.folder, self.frames[place]);
         let values = frames.at(frame)?;
-        let called = values.active_effects(&values.effects);
-        let effects = match values.splices.is_empty() {
-            true => called.names(),
+        let effects = values.active_effects(&values.effects);
+        let names = match values.splices.is_empty() {
+            true => effects.names(),
             false => values.active_names(),
         };
-        let estimate = self.costs.estimate(&effects, folder.keys.resolution());
+        let estimate = self.costs.estimate(&names, folder.keys.resolution());
         let status = self.there.get(&frame).unwrap_or(&Status::Missing).clone();
         let trace = self.traces[place];
         let [_, left] = self.sharing[trace as usize];
@@ -169,7 +169,7 @@ impl<'a> Forecast<'a> {
         };
         Ok(FrameForecast {
             frame,
-            called,
+            effects,
             status,
             trace,
             estimate,

@@ -55,21 +55,21 @@ impl Prepared {
     /// the middle or the last frame: the first of these with a Doppler shift.
     pub fn unresolved(&self) -> Vec<Unresolved> {
         let frames = self.shot.shot.frames;
-        let called = [1, frames.div_ceil(2), frames]
+        let effects = [1, frames.div_ceil(2), frames]
             .into_iter()
             .find_map(|number| {
                 let frame = Frame::new(&self.shot, number).ok()?;
-                let called = frame.active_effects(&frame.effects);
-                called.doppler.then_some((frame, called))
+                let effects = frame.active_effects(&frame.effects);
+                effects.doppler.then_some((frame, effects))
             });
-        let Some((frame, called)) = called else {
+        let Some((frame, effects)) = effects else {
             return Vec::new();
         };
         let Ok(scene) = Scene::resolve(&frame, &self.library, None) else {
             return Vec::new();
         };
         let settings = Settings {
-            called: &called,
+            effects: &effects,
             accuracy: &frame.accuracy,
             sensor: &frame.sensor,
             reach: 1.0,

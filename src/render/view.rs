@@ -64,7 +64,7 @@ impl<'a> View<'a> {
         // Between two bodies D is at most the square of what it is between either and the camera.
         let hops = 1.0 + 2.0 * f64::from(bounces);
         let settings = Settings {
-            called: &effects,
+            effects: &effects,
             accuracy: &frame.accuracy,
             sensor: &frame.sensor,
             reach: hops * motion.to_camera,
@@ -100,7 +100,7 @@ impl<'a> View<'a> {
     pub fn eye(&self, frame: &Frame<'_>) -> Shader {
         let [reach, lamp_reach] = self.reaches;
         let settings = Settings {
-            called: &self.effects,
+            effects: &self.effects,
             accuracy: &frame.accuracy,
             sensor: &Sensor {
                 color: SensorColor::Cie1931,
@@ -122,7 +122,7 @@ impl<'a> View<'a> {
     /// evaluated as their author wrote them, so that no baking shows at any wavelength or shift.
     pub fn shader_over(&self, window_nm: [f64; 2], wavelengths: u32) -> Shader {
         let settings = Settings {
-            called: &self.effects,
+            effects: &self.effects,
             accuracy: &Accuracy {
                 spectra: Spectra::Exact,
                 wavelengths,
