@@ -1,12 +1,12 @@
-//! Frames of a run as tasks, and batches of those that are rendered together: tasks that share a
-//! trace, of whatever shots, as many as the memory is meant to hold.
+//! Tasks of a run, one for each frame, and batches of tasks that are rendered together: those that
+//! share a trace, of any shots, as many as the memory budget allows.
 
 use super::memory::most_together;
 use crate::frame::{FrameFingerprint, TraceKey};
 use crate::render::Options;
 use crate::store::{Claim, FileStamps, Status};
 
-/// A frame that was chosen.
+/// A frame to be rendered or kept.
 #[derive(Debug, Clone)]
 pub(super) struct FrameTask {
     /// Number of its job in the run.
@@ -31,7 +31,7 @@ impl FrameTask {
     }
 }
 
-/// A frame that this process alone works on.
+/// A task that no other process works on.
 pub(super) struct ClaimedFrame {
     pub(super) task: FrameTask,
     /// What the frame is made of.
@@ -39,10 +39,10 @@ pub(super) struct ClaimedFrame {
     pub(super) claim: Claim,
 }
 
-/// Tasks in the order of work: by the first of each trace, tasks of one trace together, and so many
-/// at once as memory is meant to hold. `options` are those of the jobs, by their numbers.
+/// Batches of tasks, in the order of the first task of each trace. A batch has one trace, and at most
+/// [`most_together`] tasks. `options` are those of the jobs, by their numbers.
 pub(super) fn batches(tasks: Vec<FrameTask>, options: &[&Options]) -> Vec<Vec<FrameTask>> {
-    // Equal traces of two shots may still want other layers.
+    // Two shots with equal traces may ask for different layers.
     let like = |one: &&Options| options.iter().position(|other| other == one);
     let layers: Vec<Option<usize>> = options.iter().map(like).collect();
     let mut groups = indexmap::IndexMap::<_, Vec<FrameTask>>::new();

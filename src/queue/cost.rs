@@ -1,8 +1,8 @@
-//! What frames will take: seconds, from those that frames like them took; memory and disk.
+//! Estimates of what frames cost: seconds, by the records of finished frames; memory and disk.
 //!
-//! Seconds grow with pixels × samples, so each finished frame tells a rate, kept by the effects that
-//! it was rendered with. A frame is judged by the mean rate of this shot's frames with the same
-//! effects, else of any of this shot, else of the other shots below the same folder, else by a guess.
+//! Seconds grow with pixels × samples, so each record gives a rate, filed under the effects of its
+//! frame. The estimate of a frame takes the mean rate of this shot's frames with the same effects, else
+//! of all of this shot, else of the other shots below the same folder, else a guess.
 
 use super::memory::image_bytes;
 use crate::frame::{Frame, Resolution};
@@ -12,9 +12,8 @@ use std::collections::HashMap;
 use std::fs;
 use std::path::Path;
 
-/// Seconds a ray of frames that nothing is known of: those of the gallery's rows.toml in a release
-/// build on two cores. Other scenes take a tenth to ten times as long; whoever is told of it is told
-/// that it is a guess.
+/// Default rates when nothing has been measured: those of the gallery's rows.toml in a release build on
+/// two cores. Other scenes take a tenth to ten times as long; estimates are then marked as guesses.
 const GUESSED: Rate = Rate {
     trace: 4e-7,
     shade: 7e-8,
@@ -65,15 +64,14 @@ impl Mean {
     }
 }
 
-/// What one frame will take.
+/// Estimated seconds of one frame.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Estimate {
-    /// Seconds of the clock on the wall until its shade trees are there; frames that share them
-    /// take this once.
+    /// Wall-clock seconds until its shade trees are traced; once for all frames that share them.
     pub trace: f64,
-    /// Seconds from there to its files.
+    /// Wall-clock seconds from shade trees to files.
     pub shade: f64,
-    /// Whether that rests on frames finished here; else it is a guess.
+    /// Whether it is based on records; else it is a guess.
     pub measured: bool,
 }
 
@@ -84,7 +82,7 @@ impl Estimate {
     }
 }
 
-/// What finished frames tell about others.
+/// Rates of finished frames, by which others are estimated.
 #[derive(Debug, Clone, Default)]
 pub struct Costs {
     by_effects: HashMap<Vec<String>, Mean>,
@@ -93,8 +91,8 @@ pub struct Costs {
 }
 
 impl Costs {
-    /// What the frames of a shot tell, or, where it has none, those in the folders beside its own.
-    /// A folder that cannot be read tells nothing.
+    /// Rates of the records of a shot, or, where it has none, of the shots in the folders beside its
+    /// own. Folders that cannot be read are skipped.
     pub fn new(shot_folder: &ShotFolder) -> Self {
         let mut costs = Self::default();
         shot_folder
@@ -129,7 +127,7 @@ impl Costs {
         }
     }
 
-    /// What a frame of these effects and size will take.
+    /// The estimate for a frame of these effects and size.
     pub fn estimate(&self, effects: &[String], picture: Resolution) -> Estimate {
         let same = self.by_effects.get(effects).and_then(Mean::rate);
         let known = same
@@ -144,7 +142,7 @@ impl Costs {
         }
     }
 
-    /// Seconds that a frame of these effects and size will take on its own.
+    /// Estimated seconds of a frame of these effects and size on its own.
     pub fn seconds(&self, effects: &[String], picture: Resolution) -> f64 {
         self.estimate(effects, picture).seconds()
     }
@@ -172,8 +170,8 @@ fn rate_of(record: &Record) -> Option<Rate> {
     (sane(rate.trace) && sane(rate.shade)).then_some(rate)
 }
 
-/// Bytes that the files of a frame take: as many as finished ones of this size on average, else by
-/// what pictures usually take.
+/// Bytes that the files of a frame take: the mean of finished frames of this size, else an estimate by
+/// pixels.
 pub fn frame_bytes(shot_folder: &ShotFolder) -> u64 {
     let picture = shot_folder.keys.resolution();
     let alike = |record: &&Record| record.size == picture.size;

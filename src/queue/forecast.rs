@@ -1,8 +1,8 @@
-//! Forecast of a shot's rendering: what each frame calls for, which frames share a trace, what is there
-//! already, and what the rest will take.
+//! Forecast of a shot's rendering: the effects of each frame, the frames that share a trace, the frames
+//! that are finished, and the cost of the rest.
 //!
-//! A first look at all frames tells which share a trace, and what is there; then each is planned and
-//! handed on before the next, so that of a million frames some bytes each are held.
+//! [`Forecast::new`] groups all frames by trace and looks up their status; [`Forecast::each`] then plans
+//! and hands on frame by frame, so that a million frames take some bytes each.
 
 use super::cost::{Costs, Estimate, frame_bytes, memory_bytes};
 use super::memory::most_together;
@@ -80,7 +80,7 @@ struct Sums {
 }
 
 impl<'a> Forecast<'a> {
-    /// Looks at which frames share a trace, and what is there of them.
+    /// Groups frames by trace and looks up their status.
     ///
     /// # Errors
     /// Frames of which three numbers would be shifted, and velocities that are none between two keys.
@@ -212,7 +212,7 @@ impl Sums {
     }
 }
 
-/// Refuses velocities that are none between two keys, before anything is told.
+/// Refuses frames in which a worldline has no velocity, before any is planned.
 fn check_motion(shot: &Shot, frames: &[u32]) -> Result<(), Mistakes> {
     let wrong = frames.par_iter().map_init(
         || Frames::new(shot),

@@ -1,4 +1,4 @@
-//! A shot of the run: which of its frames are there, and what became of each.
+//! Job: one shot of a run, its frames to be rendered, and the outcome of each.
 
 use super::batch::FrameTask;
 use super::cost::{Costs, active_names};
@@ -24,11 +24,11 @@ use std::path::PathBuf;
 pub struct Job {
     /// Its frames in their folder.
     pub folder: ShotFolder,
-    /// What became of its frames so far, by number.
+    /// Outcomes of its frames so far, by number.
     pub outcomes: BTreeMap<u32, FrameOutcome>,
     /// The frames chosen.
     frames: Vec<u32>,
-    /// Those of which nothing is decided yet; taken by the run.
+    /// Tasks for these; the run takes them.
     tasks: Vec<FrameTask>,
     /// Why this run can do no more for this shot.
     pub(super) halted: Option<String>,
@@ -86,7 +86,7 @@ impl Job {
         &self.frames
     }
 
-    /// The frames chosen of which this run left none as it should be.
+    /// The frames chosen that are neither kept nor rendered.
     pub fn missing(&self) -> Vec<u32> {
         let is_there = |frame: &u32| {
             let outcome = self.outcomes.get(frame);
@@ -246,13 +246,13 @@ impl Job {
         self.halted.is_some() || self.outcomes.len() == self.frames.len()
     }
 
-    /// Gives back what rendering took.
+    /// Frees the memory that rendering took.
     pub(super) fn release(&mut self) {
         (self.prepared, self.kept) = (None, None);
     }
 }
 
-/// What is there of some frames. All at once: those without a record are decoded.
+/// Stamps and status of some frames, on all threads, since frames without a record are decoded.
 fn look(folder: &ShotFolder, frames: &[u32]) -> Vec<(FileStamps, Status)> {
     let there = folder.there();
     let statuses = frames.par_iter().map(|frame| match there.contains(frame) {
@@ -269,8 +269,8 @@ fn is_wanted(task: &FrameTask, force: Force) -> bool {
     force == Force::Yes || task.status != Status::Fresh
 }
 
-/// Leaves each folder, of the frames chosen, those of one shard. Folders are not looked at: whatever
-/// a machine finds there, all deal alike.
+/// Keeps of the frames chosen those of one shard. Folders are not looked at, so that machines with
+/// different folders agree on the shards.
 pub(super) fn choose_shard(folders: &mut [(ShotFolder, Vec<u32>)], shard: Shard) {
     let all = folders.iter();
     let traces = all.flat_map(|(folder, frames)| folder.keys.trace_keys_of(frames));

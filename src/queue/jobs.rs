@@ -1,4 +1,4 @@
-//! The jobs of a run: shots opened, frames chosen, and everything that is wrong with them.
+//! List of the jobs of a run: shots opened, frames chosen, and all mistakes in them.
 
 use super::frames::Resolved;
 use super::job::{Job, choose_shard};

@@ -1,4 +1,4 @@
-//! The record of a frame that has just been finished.
+//! Manifest record of a frame that has just been finished.
 
 use super::job::Job;
 use super::render_batch::stops;
@@ -6,7 +6,7 @@ use crate::frame::{Frame, FrameFingerprint};
 use crate::render::Pictures;
 use crate::store::{Record, Seconds, host, now, peak_memory_mib};
 
-/// What a frame's viewer should know.
+/// Warnings about a picture, for its record.
 pub(super) fn warnings(made: &Pictures, left_out: Option<String>) -> Vec<String> {
     let saturated = (made.saturated > 0).then(|| {
         let values = made.saturated;

@@ -1,4 +1,5 @@
-//! A batch of frames, from scenes to films: what is traced of them is traced here.
+//! Rendering of a batch: scenes, films, and the curves that its pictures show. All tracing of a run is
+//! done here.
 
 use super::batch::ClaimedFrame;
 use super::job::Job;

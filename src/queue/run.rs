@@ -1,5 +1,5 @@
-//! A run: the frames of some shots rendered, batch by batch, beside other processes that may be at
-//! work on the same.
+//! Run: renders the frames of some shots batch by batch, beside other processes that may render the
+//! same shots.
 
 use super::batch::{ClaimedFrame, FrameTask, batches};
 use super::job::Job;
@@ -57,7 +57,7 @@ pub struct Run<'a> {
     jobs: Vec<Job>,
     settings: Settings<'a>,
     batches: VecDeque<Vec<FrameTask>>,
-    /// Tasks that other processes are at work on, to be looked at again.
+    /// Tasks claimed by other processes, to be tried again.
     held: Vec<FrameTask>,
     /// How many tasks there were when `batches` was made.
     pass: usize,
@@ -185,7 +185,7 @@ impl<'a> Run<'a> {
         true
     }
 
-    /// What of a batch is this process's to render. What others are at work on is held over.
+    /// Claims the frames of a batch. Those that other processes hold are put off.
     fn claim(&mut self, batch: Vec<FrameTask>) -> Vec<ClaimedFrame> {
         let settings = &self.settings;
         let progress = settings.progress;

@@ -1,4 +1,4 @@
-//! What a run is asked to do, where its pictures go, and who is told.
+//! Settings of a run: the frames, where the pictures go, and the listeners.
 
 use super::frames::FrameList;
 use super::shard::Shard;
@@ -7,7 +7,7 @@ use crate::store::{Record, Request};
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// What a run is asked to do, where its pictures go, and who is told.
+/// Settings of a run: the frames, where the pictures go, and the listeners.
 #[derive(Clone)]
 pub struct Settings<'a> {
     /// Size and samples of the pictures, and their folder.
@@ -20,9 +20,9 @@ pub struct Settings<'a> {
     pub force: Force,
     /// Where the pictures go. Default: to folders.
     pub output: Output<'a>,
-    /// Told of everything.
+    /// Receives the events of the run.
     pub progress: &'a Progress<'a>,
-    /// Once true, the work ends within two seconds.
+    /// Once true, the run ends within two seconds.
     pub stop: &'a AtomicBool,
 }
 
@@ -62,8 +62,8 @@ pub enum Output<'a> {
     /// To the folder of each shot, whole or absent, each with a record in the manifest. What is
     /// there already is kept, and other processes may render into the same folder.
     Folder,
-    /// To the caller, frame by frame as they are finished. Nothing is read but what shots name, and
-    /// nothing is written.
+    /// To the caller, called with each frame when it is finished. Only the files that shots name are
+    /// read, and none is written.
     Memory(&'a dyn Fn(RenderedFrame)),
 }
 

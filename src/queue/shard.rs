@@ -24,9 +24,8 @@ impl Shard {
         [self.k, self.n]
     }
 
-    /// Which frames are this shard's, of a list told by their traces. Traces are dealt out in the
-    /// order in which they first stand there, so that frames which share one stay together and
-    /// shards take about equally long.
+    /// Whether each frame of a list, given by its trace, belongs to this shard. Traces go to the shards
+    /// in turn, so that frames that share one stay together and shards take about equally long.
     pub fn choose<T: Hash + Eq>(self, traces: impl Iterator<Item = T>) -> Vec<bool> {
         let mut numbers: HashMap<T, usize> = HashMap::new();
         let number = |trace| {

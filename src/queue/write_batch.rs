@@ -1,4 +1,4 @@
-//! A batch of films, from developing to files and records.
+//! Encoding and writing of a batch: films to files and records. Nothing is traced here.
 
 use super::batch::{ClaimedFrame, FrameTask};
 use super::job::Job;
@@ -20,8 +20,8 @@ use std::time::{Duration, Instant};
 /// A frame, its scene, its film, and what its picture shows beside that.
 type Rendered<'a> = (ClaimedFrame, &'a Scene, Film, Probed);
 
-/// Films to files, as many at once as threads and memory allow; a frame is settled when it is on the
-/// disk.
+/// Encodes and writes a batch, as many films at once as threads and memory allow; a frame is settled
+/// when its record is on the disk.
 pub(super) fn write(
     jobs: &mut [Job],
     batch: Vec<ClaimedFrame>,
@@ -54,7 +54,7 @@ pub(super) fn write(
         if chunk.is_empty() || settings.is_stopped() && deadline.is_over() {
             break;
         }
-        // A picture that there is no room for need not be made.
+        // A picture that cannot be stored is not encoded.
         let (lost, chunk): (Vec<_>, Vec<_>) = chunk
             .into_iter()
             .partition(|(claimed, ..)| jobs[claimed.task.job].halted.is_some());
@@ -196,7 +196,7 @@ fn write_files(
     twice(|| manifest.append(record))
 }
 
-/// A frame is made and cannot be kept; where there is no room, its shot is done with.
+/// Fails a frame that cannot be written; where the disk is full, halts its job.
 fn unwritten(job: &mut Job, task: &FrameTask, error: &io::Error, settings: &Settings<'_>) {
     job.fail(task, &error.to_string(), settings.progress);
     if is_full(error) {

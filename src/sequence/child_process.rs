@@ -1,5 +1,4 @@
-//! Another program at work for us: ended when nobody waits for it any more, or when this process is
-//! asked to stop.
+//! A child process, killed on drop or when the run is stopped.
 
 use crate::queue::Stop;
 use std::io::{self, Read, Write};

@@ -1,12 +1,12 @@
 //! Claims: which of several processes works on a frame.
 //!
-//! A claim is a lock on a file in `.STEM.locks`, held by the open file and so gone with its process,
-//! however that ends. Who gives a claim up removes the file while it is still locked; who then gets
-//! the lock on the removed file sees that it no longer stands at its path, and takes the new one.
-//! Where the file system knows no locks, nothing is claimed, and two processes may do the same work
-//! twice; what they write is whole all the same.
+//! A claim is a lock on a file in `.STEM.locks`. The lock belongs to the open file, so it ends with its
+//! process, however that ends. A dropped claim removes the file while it is still locked; a process
+//! that then gets the lock on the removed file sees that the path leads to another file, and tries
+//! again. On a file system without locks nothing is claimed, and two processes may render the same
+//! frame twice; their files are whole all the same.
 //!
-//! Since giving up removes files, none is touched outside the shot's folder: links are refused.
+//! Links are refused: dropping a claim removes files, and none outside the shot's folder may go.
 
 use super::names::{Names, SEQUENCE, is_number};
 use super::plain_file::{is_real_folder, open_plain};
@@ -26,7 +26,7 @@ struct Held {
 }
 
 impl Claim {
-    /// Claims frame number `frame` of a folder; None if another process has.
+    /// Claims frame number `frame` of a folder; None if another process holds the claim.
     ///
     /// # Errors
     /// When the lock's file cannot be made.
@@ -34,8 +34,8 @@ impl Claim {
         Self::take(folder, names, &names.number(frame))
     }
 
-    /// Claims what has a name: a frame's number, or [`SEQUENCE`](super::SEQUENCE). None if another
-    /// process has.
+    /// Claims a frame by its number in file names, or [`SEQUENCE`](super::SEQUENCE); None if another
+    /// process holds the claim.
     ///
     /// # Errors
     /// When the lock's file cannot be made.
@@ -92,8 +92,7 @@ fn remove(path: &Path) {
     }
 }
 
-/// Whether locking failed because the file system knows no locks, or, of a network, because nobody
-/// there keeps them.
+/// Whether locking failed because the file system, or the server of a network's, has no locks.
 pub(super) fn knows_no_locks(error: &io::Error) -> bool {
     /// ENOLCK, which has no [`ErrorKind`].
     const NO_LOCKS: Option<i32> = if cfg!(any(target_os = "linux", target_os = "android")) {
@@ -119,8 +118,8 @@ pub(crate) fn refuse_link(locks: &Path) -> io::Result<()> {
     }
 }
 
-/// Opens a lock's file, made if it is not there; its folder too, which whoever drops the last claim
-/// may be removing.
+/// Opens a lock's file. Makes it and its folder if needed, again and again: a process that drops the
+/// last claim may be removing the folder.
 fn open(path: &Path) -> io::Result<File> {
     const ATTEMPTS: usize = 1000;
     let mut options = OpenOptions::new();
@@ -147,14 +146,14 @@ fn stands_at(file: &File, path: &Path) -> bool {
     }
 }
 
-/// Elsewhere a file that is open keeps its name, or gives it up at once.
+/// On other systems an open file keeps its name, or loses it at once.
 #[cfg(not(unix))]
 fn stands_at(_: &File, path: &Path) -> bool {
     path.exists()
 }
 
-/// Removes what killed runs left in a folder: files that they were writing, and their locks. What
-/// another process is working on is left alone. Trouble is passed over: leftovers do no harm.
+/// Removes temporary files and locks that killed runs left in a folder, unless another process holds
+/// their claim. Errors are ignored, since leftovers do no harm.
 pub fn sweep(folder: &Path, names: &Names) {
     for name in file_names(folder) {
         let Some(what) = names.claim_of_temporary(&name) else {

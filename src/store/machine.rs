@@ -1,4 +1,4 @@
-//! Facts of the machine and of this process, as Linux tells them (proc(5)).
+//! Name, memory and clock of the machine, and memory of this process, as Linux reports them (proc(5)).
 
 use std::fs;
 use std::time::{Duration, SystemTime, UNIX_EPOCH};
@@ -18,13 +18,13 @@ pub(crate) fn peak_memory_mib() -> Option<f64> {
     kib("/proc/self/status", "VmHWM:").map(|kib| kib as f64 / 1024.0)
 }
 
-/// Forgets the greatest memory so far. Answers whether the system could.
+/// Resets the greatest memory so far; false where the system cannot.
 pub(crate) fn forget_peak() -> bool {
     const PEAK: &str = "5";
     fs::write("/proc/self/clear_refs", PEAK).is_ok()
 }
 
-/// Memory that can be had, MiB, where the system says.
+/// Memory available to new work, MiB; None where the system does not say.
 pub(crate) fn free_memory_mib() -> Option<u64> {
     kib("/proc/meminfo", "MemAvailable:").map(|kib| kib >> 10)
 }

@@ -1,9 +1,9 @@
 //! The manifest of a shot's folder: a line of JSON for each finished frame, appended and never
 //! rewritten, so that a killed run loses at most the line it was writing.
 //!
-//! Facts of the clock (seconds, date, host) stand here and not in the pictures, which are the same
-//! bytes whoever renders them. Of several lines on one frame the last holds. Shards write manifests
-//! of their own beside; readers take all, and of each one's last line on a frame the latest.
+//! Seconds, date and host are recorded here and not in the pictures, whose bytes do not depend on them.
+//! Of several lines on one frame the last is valid. Each shard writes a manifest of its own; a reader
+//! takes the last line on a frame from each manifest, and of these the one finished last.
 
 use super::journal::{Journal, each_line};
 use super::names::Names;
@@ -46,8 +46,8 @@ pub struct Record {
     pub seconds: Seconds,
     /// What its viewer should know.
     pub warnings: Vec<String>,
-    /// Estimated share of its light that was not followed in mirrors and glass; 0 of frames of before
-    /// it was known.
+    /// Estimated share of its light that was not followed in mirrors and glass; 0 in records of
+    /// versions that did not estimate it.
     #[serde(default)]
     pub cut: f64,
     /// Largest memory of the process so far, MiB, where the system says.
@@ -73,16 +73,16 @@ pub struct FileRecord {
     pub blake3: String,
 }
 
-/// Seconds of the clock on the wall that a frame took; of a shared trace its part of them.
+/// Wall-clock seconds that a frame took, with its part of a shared trace.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
 pub struct Seconds {
     /// The scene resolved, trees built, curves and links made ready.
     pub prepare: f64,
     /// Rays traced.
     pub trace: f64,
-    /// Shade trees to light.
+    /// Shade trees to light, and the curves of insets.
     pub shade: f64,
-    /// Developed and encoded, insets drawn.
+    /// Films developed, insets drawn, files encoded.
     pub encode: f64,
     /// Written and flushed to the disk.
     pub write: f64,
@@ -106,7 +106,7 @@ pub(crate) struct Found {
     pub(super) files: Vec<FileRecord>,
 }
 
-/// What all manifests of a folder tell.
+/// Contents of all manifests of a folder.
 #[derive(Debug, Default)]
 pub(super) struct Manifests {
     /// The last record of each frame.
@@ -115,8 +115,8 @@ pub(super) struct Manifests {
     pub(super) found: BTreeMap<u32, Found>,
 }
 
-/// The last record of each frame in all manifests of a folder. Lines that are none, such as one
-/// that a killed run did not finish, are passed over. A folder that is not there holds none.
+/// The last record of each frame in all manifests of a folder; none in a folder that does not exist.
+/// Broken lines, such as one that a killed run did not finish, are skipped.
 ///
 /// # Errors
 /// When the folder or a manifest cannot be read.
@@ -125,7 +125,7 @@ pub fn read_records(folder: &Path, names: &Names) -> io::Result<BTreeMap<u32, Re
 }
 
 impl Manifests {
-    /// Reads them. Links, folders and pipes that are called like manifests are none.
+    /// Reads them. Links, folders and pipes with the name of a manifest are skipped.
     ///
     /// # Errors
     /// When the folder or a manifest cannot be read.

@@ -5,7 +5,7 @@ use crate::shot::Shot;
 /// The claim under which a sequence is assembled.
 pub const SEQUENCE: &str = "sequence";
 
-/// What the names of assembled files end in.
+/// Endings of the names of assembled files.
 pub const ASSEMBLED: [&str; 5] = ["sheet.png", "gif", "apng", "mp4", "av1.mp4"];
 
 /// Name of the overview of a shot's frames.
@@ -14,7 +14,7 @@ pub const PAGE: &str = "index.html";
 /// The names of one shot's files, all in one folder.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Names {
-    /// What all names begin with: the shot file's stem.
+    /// Beginning of all names: the shot file's stem.
     pub stem: String,
     digits: usize,
 }
@@ -29,7 +29,7 @@ impl Names {
         }
     }
 
-    /// The names in a folder called as its shot's stem; its frames are not counted.
+    /// The names of a shot of which only the stem is known.
     pub(crate) fn of_stem(stem: String) -> Self {
         Self { stem, digits: 4 }
     }
@@ -92,7 +92,7 @@ impl Names {
             .is_some_and(|rest| rest == "jsonl" || rest.ends_with(".jsonl"))
     }
 
-    /// STEM.SUFFIX, of what is assembled, one of [`ASSEMBLED`].
+    /// STEM.SUFFIX, the name of an assembled file; its suffix is one of [`ASSEMBLED`].
     pub fn assembled(&self, suffix: &str) -> String {
         format!("{}.{suffix}", self.stem)
     }

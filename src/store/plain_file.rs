@@ -1,12 +1,12 @@
-//! Opening files in folders that others write to as well: a link is not followed out of the folder,
-//! and a pipe is not waited for.
+//! Opening files in folders that strangers may write to: links are not followed out of the folder, and
+//! pipes are not waited for.
 
 use std::fs::{self, File, OpenOptions};
 use std::io::{self, ErrorKind};
 use std::path::Path;
 
-/// Opens the plain file at a path; made, if the options say so. Whoever exchanges it for a link in
-/// just this moment is found out, though the link may have been opened; nothing is written then.
+/// Opens the plain file at a path, or makes it, if the options say so. A link that replaces the file at
+/// this moment may be opened, but is then detected before anything is written.
 ///
 /// # Errors
 /// Of the kind `AlreadyExists`, if something else is there; else as [`OpenOptions::open`].

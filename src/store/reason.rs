@@ -1,11 +1,11 @@
-//! In words: what differs between what a frame was made of and what it should be made of.
+//! Reasons why a frame is stale: which of its inputs changed, in words.
 
 use crate::frame::FrameFingerprint;
 use indexmap::IndexMap;
 
 type Parts = IndexMap<String, String>;
 
-/// How many differences are told one by one.
+/// Differences that are listed; of more, the number.
 const TOLD: usize = 3;
 /// The part that changes with the renderer.
 const EPOCH: &str = "epoch";
@@ -37,8 +37,8 @@ pub(super) fn difference(was: &Parts, key: &FrameFingerprint, version: &str) -> 
     }
 }
 
-/// Whether a part stands as a hash, that tells a reader nothing: `#` and hexadecimal digits, or
-/// sixteen and more of them alone.
+/// Whether a value is a hash, which means nothing to a reader: `#` and hexadecimal digits, or at least
+/// sixteen of them alone.
 fn is_hash(value: &str) -> bool {
     const SHORTEST: usize = 16;
     let value = value.trim_matches('"');

@@ -1,4 +1,4 @@
-//! A shot's frames in their folder: what each should be made of, and what is there.
+//! A shot's frames in their folder: the fingerprint that each should have, and the files that exist.
 
 use super::manifest::{FileRecord, Found, Manifests, Record};
 use super::names::Names;
@@ -15,18 +15,19 @@ use std::io;
 use std::path::PathBuf;
 use std::time::SystemTime;
 
-/// A shot's frames and their folder. Reads hashes, no meshes.
+/// A shot's frames and their folder. Opening it hashes the files that the shot names, and parses no
+/// mesh.
 #[derive(Debug)]
 pub struct ShotFolder {
-    /// What each frame is made of.
+    /// The fingerprint of each frame.
     pub keys: Fingerprints,
     /// Where the files are; it need not exist.
     pub path: PathBuf,
     /// What they are called.
     pub names: Names,
-    /// Of finished frames, as the manifests had them when this was last read.
+    /// Records of finished frames, as of the last [`refresh`](Self::refresh).
     pub records: BTreeMap<u32, Record>,
-    /// Of others that were found whole.
+    /// Frames without a record that were found whole.
     found: BTreeMap<u32, Found>,
     /// Size, samples and layers of each.
     pub(crate) options: Options,
@@ -35,11 +36,11 @@ pub struct ShotFolder {
 /// Whether a frame has to be rendered.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Status {
-    /// It is there, and what it is made of has not changed.
+    /// Its files exist, and its inputs have not changed.
     Fresh,
-    /// There is nothing of it.
+    /// It has no file.
     Missing,
-    /// It is there, but …
+    /// Its files are of other inputs, incomplete or broken.
     Stale {
         /// Continues "stale because ".
         reason: String,
@@ -74,8 +75,7 @@ impl ShotFolder {
         Ok(shot_folder)
     }
 
-    /// The same, but that the folder has not been looked at yet: what frames should be made of is
-    /// the same on every machine.
+    /// [`open`](Self::open) without a look at the folder: fingerprints are the same on every machine.
     ///
     /// # Errors
     /// Files of the shot that cannot be read.
@@ -116,7 +116,7 @@ impl ShotFolder {
         Ok(())
     }
 
-    /// The frames of which a file is there. A folder that cannot be read has none.
+    /// The frames that have a file; none in a folder that cannot be read.
     pub fn there(&self) -> BTreeSet<u32> {
         let entries = fs::read_dir(&self.path).into_iter().flatten();
         let frames = entries.filter_map(|entry| {
@@ -128,8 +128,8 @@ impl ShotFolder {
         frames.collect()
     }
 
-    /// Whether frames have to be rendered, in their order: of those that nothing is there of no key is
-    /// made.
+    /// Whether frames have to be rendered, in their order. Missing frames cost nothing: no fingerprint
+    /// is made of them.
     pub fn statuses(&self, frames: &[u32]) -> Vec<Status> {
         let there = self.there();
         let status = |frame: &u32| match there.contains(frame) {
@@ -151,9 +151,9 @@ impl ShotFolder {
             .collect()
     }
 
-    /// Whether a frame has to be rendered: by its record, its files' lengths, and what their
-    /// headers say they are made of. Where no record tells, files that say the right thing are
-    /// decoded whole, so that a folder survives without its manifests.
+    /// Whether a frame has to be rendered: by its record, the lengths of its files, and the
+    /// fingerprints in their headers. Files without a record that have the right fingerprint are
+    /// decoded whole, so that a folder stays valid without its manifests.
     pub fn status(&self, frame: u32, key: &FrameFingerprint) -> Status {
         let files = self.files(frame);
         let lengths = self.lengths(frame);
@@ -192,7 +192,7 @@ impl ShotFolder {
         Status::Fresh
     }
 
-    /// What a manifest tells of a frame's files, if they are of the frame as it should be.
+    /// Files of a frame in a manifest, if their fingerprint is the right one.
     pub fn written(&self, frame: u32, key: &FrameFingerprint) -> Option<&[FileRecord]> {
         let record = self.records.get(&frame);
         let record = record.filter(|record| record.fingerprint == key.fingerprint);
@@ -207,15 +207,14 @@ impl ShotFolder {
         recorded.or_else(|| found.map(|found| found.files.as_slice()).filter(all))
     }
 
-    /// Lengths that a manifest tells of a frame's files, in their order.
+    /// Lengths of a frame's files in a manifest, in their order.
     fn told(&self, frame: u32, key: &FrameFingerprint) -> Option<Vec<u64>> {
         let written = self.written(frame, key)?;
         let length = |name: String| Some(written.iter().find(|file| file.name == name)?.bytes);
         self.files(frame).into_iter().map(length).collect()
     }
 
-    /// What is to be written down of a frame that is fresh, so that it need not be decoded again;
-    /// nothing, if a manifest tells of it.
+    /// The manifest entry of a fresh frame without one, so that it need not be decoded again.
     pub(crate) fn found(&self, frame: u32, key: &FrameFingerprint) -> Option<Found> {
         if self.told(frame, key).is_some() {
             return None;
@@ -253,7 +252,7 @@ impl ShotFolder {
         files.into_iter().map(|file| Some(file?.0)).collect()
     }
 
-    /// Whether all files that are there say that they are what `key` says.
+    /// Whether all existing files have the fingerprint of `key` in their headers.
     fn is_of(&self, files: &[String], key: &FrameFingerprint) -> bool {
         files.iter().all(|name| {
             let path = self.path.join(name);
@@ -261,7 +260,7 @@ impl ShotFolder {
         })
     }
 
-    /// Of files that say the right thing, but that no record tells the lengths of.
+    /// Status of files with the right fingerprint but no recorded length.
     fn decoded(&self, files: &[String]) -> Status {
         let size = self.keys.resolution().size;
         let broken = |name: &&String| !fingerprint::is_whole(&self.path.join(name), size);
@@ -274,6 +273,6 @@ impl ShotFolder {
     }
 }
 
-/// The lengths and times of a frame's files; empty where none was looked at.
+/// Lengths and modification times of a frame's files; empty for files that were not looked at.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct FileStamps(Vec<Option<(u64, Option<SystemTime>)>>);
