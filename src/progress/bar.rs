@@ -1,11 +1,11 @@
-//! The bar on a terminal: how much is done, and how long the rest will take.
+//! Progress bar on a terminal, with the estimated time left.
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
 use std::fmt::Write as _;
 use std::io::{self, IsTerminal};
 use std::time::Duration;
 
-/// What the whole work is, on the bar.
+/// Length of the bar for the whole work.
 const WHOLE: u64 = 1_000_000;
 
 /// A bar on standard error.
@@ -18,7 +18,7 @@ impl Bar {
         (io::stderr().is_terminal() && !dumb).then(|| Self(new_bar()))
     }
 
-    /// From now on time counts.
+    /// Starts the clock.
     pub(super) fn begin(&self) {
         self.0.reset_elapsed();
     }
@@ -28,12 +28,12 @@ impl Bar {
         self.0.set_position((share * WHOLE as f64) as u64);
     }
 
-    /// Shows a few words beside it.
+    /// Shows a short text beside it.
     pub(super) fn label(&self, words: String) {
         self.0.set_message(words);
     }
 
-    /// Does something while it is off the screen.
+    /// Hides it while `act` writes to the terminal.
     pub(super) fn suspend(&self, act: impl FnOnce()) {
         self.0.suspend(act);
     }
@@ -65,8 +65,8 @@ fn new_bar() -> ProgressBar {
     bar
 }
 
-/// What is left to do over what was done in a second; the work is counted in expected cost, so that
-/// cheap frames do not fool it.
+/// Time left: elapsed time times the share left over the share done. Shares are of expected cost, so
+/// that cheap frames do not distort it.
 fn left(done: f64, elapsed: Duration) -> String {
     if done <= 0.0 {
         return "?".to_owned();

@@ -6,7 +6,7 @@ use super::output::Encoder;
 use crate::store::{AtomicFile, AtomicWriter};
 use std::path::PathBuf;
 
-/// An animation in the making.
+/// Encoder of an animated PNG.
 pub(super) struct Apng {
     file: AtomicFile,
     writer: png::Writer<AtomicWriter>,

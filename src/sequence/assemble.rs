@@ -1,7 +1,7 @@
 //! Sheets, animations and videos of a shot's frames, all in one pass over them.
 //!
-//! Nothing is made of a sequence in which a frame is missing or wrong. Memory is bounded by a
-//! picture a thread, a row of the sheet and a palette, however long the sequence is.
+//! Nothing is made of a sequence in which a frame is missing or wrong. Memory does not grow with the
+//! length of the sequence: a picture per thread, a row of the sheet and a palette.
 
 use super::apng::Apng;
 use super::findings::{Finding, Kind};
@@ -33,7 +33,7 @@ pub enum AssembleError {
         quoted(.0)
     )]
     Refused(Vec<Finding>),
-    /// A frame that was sound a moment ago.
+    /// A frame that was verified and then became unreadable.
     #[error("nothing is assembled: {0}")]
     FrameImage(#[from] FrameImageError),
     /// The folder cannot be read.
@@ -63,8 +63,8 @@ fn quoted(findings: &[Finding]) -> String {
     words.join("; ")
 }
 
-/// Assembles all that a shot asks for, be it there already or not; returns the files. `notes` is
-/// told what one should know. Asked to stop, it ends soon and leaves nothing that is not whole.
+/// Assembles all files that a shot asks for, also those that exist; returns their paths. `notes` gets
+/// notes and warnings for the user. A stop signal ends it soon, with no partial file left.
 ///
 /// # Errors
 /// When a frame is missing or wrong nothing is made; when a file cannot be made the others are.
@@ -81,9 +81,9 @@ pub fn assemble(
     )
 }
 
-/// Assembles, at the end of a shot's rendering, what is not there or is of other frames; nothing
-/// while frames are missing, as others may be at work on them. The caller holds the claim on the
-/// shot's sequence, so that no two processes do this at once.
+/// Assembles, at the end of a shot's rendering, the files that are missing or were made of other
+/// frames; none while frames are missing, as other processes may be rendering them. The caller holds
+/// the claim on the shot's sequence, so that no two processes do this at once.
 ///
 /// # Errors
 /// As [`assemble`].
@@ -101,7 +101,7 @@ pub fn is_finished(shot_folder: &ShotFolder) -> bool {
     outstanding(shot_folder).is_empty()
 }
 
-/// What is asked for and not there, if it can be made.
+/// Files that are asked for and missing or out of date; none while frames are missing.
 fn outstanding(shot_folder: &ShotFolder) -> Vec<Output> {
     let mut outputs = Output::of(&shot_folder.shot().sequence);
     outputs.retain(|output| !freshness::is_fresh(shot_folder, *output));
@@ -111,7 +111,7 @@ fn outstanding(shot_folder: &ShotFolder) -> Vec<Output> {
     outputs
 }
 
-/// Whether all frames are there as they should be.
+/// Whether all frames are fresh.
 fn is_rendered(shot_folder: &ShotFolder) -> bool {
     let (there, frames) = (shot_folder.there(), shot_folder.shot().shot.frames);
     let fresh =
@@ -119,8 +119,8 @@ fn is_rendered(shot_folder: &ShotFolder) -> bool {
     there.len() as u64 == u64::from(frames) && there.par_iter().all(fresh)
 }
 
-/// What a shot asks for and cannot get of images of a size, whatever they show: known before the
-/// first is rendered.
+/// Why a file that a shot asks for cannot be made of images of this size; None if all can. Known before
+/// the first frame is rendered.
 pub fn foreseen(shot: &Shot, size: [u32; 2]) -> Option<String> {
     shot.sequence.sheet?;
     let splices = Splices::new(shot, size);

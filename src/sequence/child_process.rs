@@ -8,10 +8,10 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::thread::{self, JoinHandle};
 use std::time::Duration;
 
-/// Lines of what a program said last that are quoted.
+/// Last lines of a program's standard error that messages quote.
 const QUOTED: usize = 4;
 
-/// Between two looks at whether a program has ended, or has to.
+/// Pause between two checks for the program's end or a stop signal.
 const PAUSE: Duration = Duration::from_millis(10);
 
 /// A running program.
@@ -59,7 +59,7 @@ impl ChildProcess {
         Ok(Self { shared, pipe, said })
     }
 
-    /// Hands it bytes.
+    /// Writes bytes to its standard input.
     pub(super) fn write(&mut self, bytes: &[u8]) -> io::Result<()> {
         match &mut self.pipe {
             Some(pipe) => pipe.write_all(bytes),
@@ -67,15 +67,15 @@ impl ChildProcess {
         }
     }
 
-    /// What it prints, once.
+    /// Its standard output; only the first call has it.
     pub(super) fn stdout(&self) -> Option<ChildStdout> {
         self.shared.child().stdout.take()
     }
 
-    /// Tells it that there is no more, and waits for its end.
+    /// Closes its standard input and waits for its end.
     ///
     /// # Errors
-    /// Unless it ends well: how it ended, and the last that it said.
+    /// An exit status other than 0, with the last lines of its standard error.
     pub(super) fn end(&mut self) -> Result<(), String> {
         drop(self.pipe.take());
         let status = loop {

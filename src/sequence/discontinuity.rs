@@ -1,4 +1,4 @@
-//! Frames that do not fit between their neighbours: black, shifted or garbled ones.
+//! Discontinuities: frames that do not fit between their neighbours, e.g. black, shifted or garbled.
 //!
 //! Frames are compared as grids of at most 64 × 64 means of the values that are shown, and the
 //! distance of two grids is the root of the mean square. With x the grids, the difference of frame
@@ -70,7 +70,7 @@ fn distance<const N: usize>(terms: [(f32, &Option<Grid>); N]) -> Option<f64> {
     Some((squares / sum.len().max(1) as f64).sqrt())
 }
 
-/// A frame that does not fit.
+/// A frame that does not fit between its neighbours.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Discontinuity {
     /// Its number.

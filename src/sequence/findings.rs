@@ -7,13 +7,13 @@ use serde::Serialize;
 use std::fs;
 use std::ops::RangeInclusive;
 
-/// What kind of thing is wrong.
+/// Kind of a finding.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Kind {
     /// A file is not there.
     Missing,
-    /// It is there, but made of something else than it should be.
+    /// Its fingerprint is not the one that it should have.
     Stale,
     /// It cannot be decoded to its end.
     Undecodable,
@@ -41,19 +41,19 @@ impl Kind {
 pub struct Finding {
     /// The frame's number; none if the file is no frame's of this shot.
     pub frame: Option<u32>,
-    /// The last of a run of frames of which it is said, the file being that of the first.
+    /// The last frame, where the finding is about a run of frames; the file is that of the first.
     #[serde(skip)]
     pub last: Option<u32>,
     /// The file's name in the folder.
     pub file: String,
     /// What kind of thing it is.
     pub kind: Kind,
-    /// What exactly.
+    /// Details.
     pub why: String,
 }
 
 impl Finding {
-    /// The frames of which it is said; none if it is of no frame of this shot.
+    /// The frames that the finding is about; None if about no frame of this shot.
     pub fn frames(&self) -> Option<RangeInclusive<u32>> {
         let first = self.frame?;
         Some(first..=self.last.unwrap_or(first))
@@ -96,7 +96,7 @@ impl Report {
     }
 }
 
-/// Frames in a row that are told one by one; longer runs are told as one.
+/// Longest run of missing frames that is listed frame by frame.
 pub(super) const SINGLY: u32 = 12;
 
 /// Frames in a row.
@@ -142,7 +142,7 @@ pub(super) fn unknown_files(shot_folder: &ShotFolder) -> Vec<Finding> {
     names.into_iter().filter_map(orphan).collect()
 }
 
-/// Why a file is none of the shot's; none if it is, or if it is none of ours.
+/// Why a file does not belong to the shot; None if it does, or if it is no file of this program.
 fn why(shot_folder: &ShotFolder, file: &str) -> Option<String> {
     let names = &shot_folder.names;
     if file == PAGE && !shot_folder.shot().sequence.page {

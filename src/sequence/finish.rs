@@ -1,5 +1,4 @@
-//! The end of a shot's rendering: files made of its frames, and the page about them, by one process at
-//! a time.
+//! Finishing of a rendered shot: its assembled files and its page, written by one process at a time.
 
 use super::assemble::{AssembleError, assemble, finish, is_finished};
 use super::page::{self, Outcomes};
@@ -14,8 +13,8 @@ use std::time::Duration;
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Unfinished;
 
-/// Assembles what a finished job of a run asks for, if all its frames are there, and writes its page;
-/// nothing of it where it is there already. Ends soon when asked to stop.
+/// Assembles the files that a finished job asks for, if all its frames are rendered, and writes its
+/// page; only what is missing or out of date. A stop signal ends it soon.
 ///
 /// # Errors
 /// When something cannot be made.
@@ -84,8 +83,8 @@ pub struct Assembled {
     pub failures: Vec<String>,
 }
 
-/// Assembles all that a shot asks for, and its page, be it there already or not. `notes` is told what
-/// one should know. Asked to stop, it ends soon and leaves nothing that is not whole.
+/// Assembles all files that a shot asks for, and its page, also those that exist. `notes` gets notes
+/// and warnings for the user. A stop signal ends it soon, with no partial file left.
 ///
 /// # Errors
 /// When the shot cannot be claimed, e.g. since another process is assembling it.
@@ -137,7 +136,7 @@ fn make_all(folder: &ShotFolder, notes: &dyn Fn(&str), stop: &Stop) -> Assembled
     all
 }
 
-/// The claim on the sequence, which another process gives up soon; None if asked to stop.
+/// Waits for the claim on the sequence; None if the run was stopped.
 fn wait_for_claim(folder: &ShotFolder, stop: &Stop) -> Result<Option<Claim>, String> {
     const PAUSE: Duration = Duration::from_millis(50);
     while !stop.is_asked() {

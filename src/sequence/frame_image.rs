@@ -30,8 +30,8 @@ pub struct FrameImageError {
     pub why: String,
 }
 
-/// Reads a frame from its PNG; where none is written from its EXR, by the same transfer that a PNG
-/// has. It must have the size that the folder asks for.
+/// Reads a frame from its PNG or, where the shot writes none, from its EXR with the transfer function of
+/// a PNG. It must have the size that the folder asks for.
 ///
 /// # Errors
 /// A file that is missing, broken or of another size.
@@ -57,7 +57,7 @@ pub fn read(shot_folder: &ShotFolder, frame: u32) -> Result<FrameImage, FrameIma
     }
 }
 
-/// The extension of the files that frames are shown from.
+/// Extension of the files that pictures are read from.
 pub(super) fn shown_extension(shot: &Shot) -> &'static str {
     if shot.output.formats.contains(&Format::Png) {
         "png"

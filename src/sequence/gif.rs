@@ -16,7 +16,7 @@ pub(super) const SAMPLED_FRAMES: u32 = 32;
 /// Pixels that the palette is made of, at most, of all frames.
 const SAMPLED_PIXELS: usize = 1 << 19;
 
-/// An animation in the making.
+/// Encoder of an animated GIF.
 pub(super) struct Gif {
     file: AtomicFile,
     encoder: gif::Encoder<AtomicWriter>,
@@ -25,7 +25,7 @@ pub(super) struct Gif {
     fps: f64,
 }
 
-/// Every so many pixels of a picture that stands for `frames`.
+/// Sample of the pixels of a picture, one of those that represent `frames`.
 pub(super) fn sample(image: &FrameImage, frames: u32) -> impl Iterator<Item = [u8; 3]> + '_ {
     let pixels = image.rgb8.as_chunks::<3>().0;
     let most = SAMPLED_PIXELS / frames.clamp(1, SAMPLED_FRAMES) as usize;
@@ -86,8 +86,8 @@ impl Encoder for Gif {
     }
 }
 
-/// How long a frame, counted from 1, stands, in hundredths of a second: such that the frames up to
-/// any are off by half of one at most.
+/// Delay of a frame, counted from 1, hundredths of a second. Rounded so that the start of every frame is
+/// off by half a hundredth at most.
 fn delay(frame: u32, fps: f64) -> u16 {
     let end = |frame: u32| (f64::from(frame) * 100.0 / fps).round();
     (end(frame) - end(frame - 1)).clamp(0.0, f64::from(u16::MAX)) as u16

@@ -1,7 +1,7 @@
 //! Finished frames: verified, and assembled to sheets, animations, videos and a page.
 //!
-//! In: a [`ShotFolder`](crate::store::ShotFolder), the frames of a shot in their folder. Out: the list of what
-//! is wrong with them ([`verify`]), and files beside them, each whole or not there ([`assemble`]).
+//! In: a shot's frames in their folder ([`ShotFolder`](crate::store::ShotFolder)). Out: what is wrong
+//! with them ([`verify`]), and files beside them, each whole or absent ([`assemble`], [`finish_shot`]).
 //! No frame is rendered here.
 
 mod apng;

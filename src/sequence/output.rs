@@ -1,10 +1,10 @@
-//! What can be assembled of a shot's frames, and what each kind of file does with them.
+//! Kinds of assembled files, and the interface of their encoders.
 
 use super::frame_image::FrameImage;
 use crate::shot::{Sequence, Video};
 use std::path::PathBuf;
 
-/// One thing that is assembled, a file.
+/// Kind of an assembled file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Output {
     /// Contact sheet.
@@ -27,7 +27,7 @@ pub(super) const OUTPUTS: [Output; 5] = [
 ];
 
 impl Output {
-    /// What a shot asks for.
+    /// The files that a shot asks for.
     pub(super) fn of(sequence: &Sequence) -> Vec<Self> {
         let sheet = sequence.sheet.map(|_| Self::Sheet);
         let gif = sequence.gif.then_some(Self::Gif);
@@ -36,7 +36,7 @@ impl Output {
         [sheet, gif, apng, video].into_iter().flatten().collect()
     }
 
-    /// What its file's name ends in.
+    /// Ending of its file name.
     pub(super) fn suffix(self) -> &'static str {
         match self {
             Self::Sheet => "sheet.png",
@@ -47,7 +47,7 @@ impl Output {
         }
     }
 
-    /// What it is called on the page.
+    /// Its title on the page.
     pub(super) fn title(self) -> &'static str {
         match self {
             Self::Sheet => "contact sheet",
@@ -58,7 +58,7 @@ impl Output {
         }
     }
 
-    /// What it is called in the shot.
+    /// Its key in the shot.
     pub(super) fn word(self) -> &'static str {
         match self {
             Self::Sheet => "sheet",

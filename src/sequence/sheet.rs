@@ -118,7 +118,7 @@ pub(super) fn layout(shot: &Shot, splices: &Splices) -> Result<Layout, String> {
     )
 }
 
-/// A sheet in the making.
+/// Encoder of a contact sheet.
 pub(super) struct Sheet {
     file: AtomicFile,
     writer: png::StreamWriter<'static, AtomicWriter>,

@@ -1,4 +1,4 @@
-//! How a frame is shown: as it stands, or the splices of a spliced one side by side.
+//! Layout of a frame with splices: as rendered, or its splices side by side.
 
 use super::frame_image::FrameImage;
 use crate::frame::Splice;

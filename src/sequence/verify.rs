@@ -1,8 +1,7 @@
-//! A shot's frames looked at one by one: whether each is there, whole, as it should be, and fits
-//! between its neighbours.
+//! Verification of a shot's frames, one by one: whether each exists, decodes, has the right fingerprint,
+//! and fits between its neighbours.
 //!
-//! Files are decoded on all threads, one a thread at a time, so that memory is bounded by as many
-//! pictures as there are threads.
+//! Each thread decodes one file at a time, so that memory is bounded by one picture per thread.
 
 use super::discontinuity::{Differences, Discontinuity, Grid};
 use super::findings::{Finding, Kind, Report, Run, SINGLY, count, gaps, unknown_files};
@@ -23,14 +22,14 @@ const AT_ONCE: usize = 64;
 /// less than a third where the step is not nearly nothing.
 const KINK: f64 = 0.4;
 
-/// Looks at every frame of a shot, and at the files beside them. A folder that is not there has no
+/// Verifies every frame of a shot, and the files beside them. A folder that does not exist has no
 /// frames.
 pub fn verify(shot_folder: &ShotFolder) -> Report {
     let never = Stop::default();
     verify_until(shot_folder, &never).unwrap_or_default()
 }
 
-/// The same, unless asked to stop.
+/// [`verify`]; None if the run was stopped.
 pub(super) fn verify_until(shot_folder: &ShotFolder, stop: &Stop) -> Option<Report> {
     let frames = shot_folder.shot().shot.frames;
     let there: Vec<u32> = shot_folder.there().into_iter().collect();
@@ -59,7 +58,7 @@ pub(super) fn verify_until(shot_folder: &ShotFolder, stop: &Stop) -> Option<Repo
     Some(Report { frames, findings })
 }
 
-/// The findings of frames of which nothing is there: of a long run one.
+/// Findings of missing frames; one for a long run of them.
 fn missing(shot_folder: &ShotFolder, gap: &Run) -> Vec<Finding> {
     let file = |frame: u32| {
         shot_folder

@@ -1,5 +1,5 @@
-//! A video by ffmpeg, which is handed pixels through a pipe and never the names of files: of those
-//! it would pass over what is missing and stop without a word at what is empty.
+//! A video by ffmpeg. It gets pixels through a pipe and no file names: given names, it would skip
+//! missing files and stop silently at an empty one.
 //!
 //! Rec. 709 as players expect it: limited range, 4:2:0, tagged; the transfer is sRGB's, that of the
 //! pixels. H.264 at a constant rate factor of 18, AV1 at 20 with 10 bits.
@@ -18,7 +18,7 @@ use std::process::Command;
 /// Least pixels a side of the AV1 encoder (SVT-AV1 1.4).
 const LEAST_AV1: u32 = 64;
 
-/// A video in the making.
+/// Encoder of a video: a running ffmpeg.
 pub(super) struct Video {
     file: AtomicFile,
     ffmpeg: ChildProcess,
@@ -70,7 +70,7 @@ impl Video {
     }
 }
 
-/// All that ffmpeg is told but the file's name.
+/// Arguments of ffmpeg, but for the file's name.
 fn arguments(kind: Kind, [width, height]: [u32; 2], (n, d): (i32, u32)) -> Vec<OsString> {
     let (format, codec) = match kind {
         Kind::Mp4 => ("yuv420p", "-c:v libx264 -crf 18 -preset slow"),
@@ -131,8 +131,8 @@ fn pad(image: &FrameImage, [width, height]: [u32; 2]) -> Option<Vec<u8>> {
     Some(padded)
 }
 
-/// How many frames a video has; none where there is no ffprobe to tell. ffmpeg ends well though the
-/// end of the file could not be written (5.1): a video that ffprobe cannot read is a torn one.
+/// Number of frames in a video, by ffprobe; None where that is not installed. A check is needed: ffmpeg
+/// 5.1 exits with 0 when the end of the file could not be written, and ffprobe cannot read such a file.
 fn count(file: &AtomicFile, stop: &Stop) -> Result<Option<u32>, String> {
     let words = "-v error -select_streams v:0 -count_frames -show_entries stream=nb_read_frames \
                  -of csv=p=0";
