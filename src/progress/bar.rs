@@ -28,7 +28,7 @@ impl Bar {
         self.0.set_position((share * WHOLE as f64) as u64);
     }
 
-    /// Shows a few words beside it.
+    /// Shows a short text beside it.
     pub(super) fn label(&self, words: String) {
         self.0.set_message(words);
     }

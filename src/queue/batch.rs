@@ -39,8 +39,8 @@ pub(super) struct ClaimedFrame {
     pub(super) claim: Claim,
 }
 
-/// Tasks in the order of work: by the first of each trace, tasks of one trace together, and so many
-/// at once as memory is meant to hold. `options` are those of the jobs, by their numbers.
+/// Batches of tasks, in the order of the first task of each trace. A batch has one trace, and at most
+/// [`most_together`] tasks. `options` are those of the jobs, by their numbers.
 pub(super) fn batches(tasks: Vec<FrameTask>, options: &[&Options]) -> Vec<Vec<FrameTask>> {
     // Equal traces of two shots may still need different layers.
     let like = |one: &&Options| options.iter().position(|other| other == one);

@@ -72,7 +72,7 @@ impl Mean {
 pub struct Estimate {
     /// Wall-clock seconds until its shade trees exist; frames that share them take this once.
     pub trace: f64,
-    /// Seconds from there to its files.
+    /// Wall-clock seconds from shade trees to files.
     pub shade: f64,
     /// Whether it is based on frames finished here; otherwise it is a guess.
     pub measured: bool,

@@ -81,7 +81,7 @@ struct Sums {
 }
 
 impl<'a> Forecast<'a> {
-    /// Looks at which frames share a trace, and what is there of them.
+    /// Groups frames by trace and looks up their status.
     ///
     /// # Errors
     /// Frames of which three numbers would be shifted, and velocities that are none between two keys.
@@ -213,7 +213,7 @@ impl Sums {
     }
 }
 
-/// Refuses velocities that are none between two keys, before anything is told.
+/// Refuses frames in which a worldline has no velocity, before any is planned.
 fn check_motion(shot: &Shot, frames: &[u32]) -> Result<(), Mistakes> {
     let wrong = frames.par_iter().map_init(
         || Frames::new(shot),

@@ -71,7 +71,7 @@ fn distance<const N: usize>(terms: [(f32, &Option<Grid>); N]) -> Option<f64> {
     Some((squares / sum.len().max(1) as f64).sqrt())
 }
 
-/// A frame that does not fit.
+/// A frame that does not fit between its neighbours.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Discontinuity {
     /// Its number.

@@ -137,7 +137,7 @@ fn make_all(folder: &ShotFolder, notes: &dyn Fn(&str), stop: &Stop) -> Assembled
     all
 }
 
-/// The claim on the sequence, which another process gives up soon; None if asked to stop.
+/// Waits for the claim on the sequence; None if the run was stopped.
 fn wait_for_claim(folder: &ShotFolder, stop: &Stop) -> Result<Option<Claim>, String> {
     const PAUSE: Duration = Duration::from_millis(50);
     while !stop.is_asked() {

@@ -6,7 +6,7 @@
 //! path, and opens the new one. If the file system does not support locks, nothing is claimed, and
 //! two processes may do the same work twice; their files are complete all the same.
 //!
-//! Since giving up removes files, none is touched outside the shot's folder: links are refused.
+//! Links are refused: dropping a claim removes files, and none outside the shot's folder may go.
 
 use super::names::{Names, SEQUENCE, is_number};
 use super::plain_file::{is_real_folder, open_plain};

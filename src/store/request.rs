@@ -4,7 +4,7 @@ use crate::render::Options;
 use crate::shot::{Format, LARGEST_SIDE, Shot};
 use std::path::PathBuf;
 
-/// Which pictures of a shot are asked for, and where they are.
+/// Size and sampling asked for in place of the shot's, and the folder of the pictures.
 ///
 /// # Example
 /// ```

@@ -15,10 +15,11 @@ use std::io;
 use std::path::PathBuf;
 use std::time::SystemTime;
 
-/// A shot's frames and their folder. Reads hashes, no meshes.
+/// A shot's frames and their folder. Opening it hashes the files that the shot names, and parses no
+/// mesh.
 #[derive(Debug)]
 pub struct ShotFolder {
-    /// What each frame is made of.
+    /// The fingerprint of each frame.
     pub keys: Fingerprints,
     /// Path of the folder; it need not exist.
     pub path: PathBuf,
@@ -74,8 +75,7 @@ impl ShotFolder {
         Ok(shot_folder)
     }
 
-    /// The same, but that the folder has not been looked at yet: what frames should be made of is
-    /// the same on every machine.
+    /// [`open`](Self::open) without a look at the folder: fingerprints are the same on every machine.
     ///
     /// # Errors
     /// Files of the shot that cannot be read.
