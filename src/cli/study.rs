@@ -69,14 +69,6 @@ fn frame(prepared: &Prepared, asked: Option<u32>) -> Result<u32, Failed> {
             "the shot has frames 1 to {frames}, not {frame}"
         ))),
     }
-    let mut most = (0, 1);
-    let mut all = Frames::new(shot);
-    for number in 1..=frames {
-        let frame = all.at(number).map_err(|m| mistaken(&m))?;
-        let effects = frame.active_effects(&frame.effects);
-        most = most.max((effects.count(), number));
-    }
-    Ok(most.1)
 }
 
 /// Size and samples asked for, or the default, without layers.

@@ -23,6 +23,7 @@ mod sweep;
 mod timed_render;
 mod whole;
 
+pub use defaults::{default_frame, default_size};
 pub use error::StudyError;
 pub use results::Study;
 pub use start::Request;
