@@ -19,7 +19,7 @@ mod profile;
 mod together;
 mod view;
 
-pub use encode::{PictureInfo, Pictures, encode};
+pub use encode::{InsetTooSmall, PictureInfo, Pictures, encode};
 pub use expose::Stopped;
 pub use lab_path::LabPath;
 pub use left_out::{Enough, enough_bounces, left_out_warning};
