@@ -1,4 +1,4 @@
-//! Events of a run, and whoever listens to them.
+//! Events of a run, and the sinks that take them.
 
 use super::outcome::FrameOutcome;
 use serde::Serialize;

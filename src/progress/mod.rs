@@ -1,4 +1,4 @@
-//! Progress: how far a run has come, as events for whoever listens.
+//! Progress: how far a run has come, as events for any number of sinks.
 //!
 //! In: what a run does, frame by frame ([`Progress`]). Out: [`Event`]s to any number of [`Sink`]s: a
 //! bar or plain lines on standard error, JSON, Open Job Description, or the caller's own closure.

@@ -58,7 +58,7 @@ fn key(shot_folder: &ShotFolder, output: Output) -> String {
 }
 
 fn journal(shot_folder: &ShotFolder) -> Journal {
-    Journal::new(path(shot_folder), String::new())
+    Journal::new(path(shot_folder), None)
 }
 
 fn path(shot_folder: &ShotFolder) -> PathBuf {

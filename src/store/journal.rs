@@ -18,13 +18,13 @@ const LONGEST_LINE: u64 = 1 << 20;
 #[derive(Debug)]
 pub(crate) struct Journal {
     path: PathBuf,
-    /// The first line of a new journal; empty for none.
-    opening: String,
+    /// The first line of a new journal, if it has one.
+    opening: Option<String>,
 }
 
 impl Journal {
-    /// The journal at `path`, which begins with the line `opening` if that is not empty.
-    pub(crate) fn new(path: PathBuf, opening: String) -> Self {
+    /// The journal at `path`, which begins with the line `opening` if there is one.
+    pub(crate) fn new(path: PathBuf, opening: Option<String>) -> Self {
         Self { path, opening }
     }
 
@@ -50,8 +50,10 @@ impl Journal {
         }
         let length = file.seek(SeekFrom::End(0))?;
         let mut text = match length {
-            0 if self.opening.is_empty() => String::new(),
-            0 => format!("{}\n", self.opening),
+            0 => self
+                .opening
+                .as_ref()
+                .map_or_else(String::new, |line| format!("{line}\n")),
             _ if ends_a_line(&mut file)? => String::new(),
             // A killed run was writing there.
             _ => "\n".to_owned(),
