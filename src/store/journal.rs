@@ -14,6 +14,9 @@ use std::path::{Path, PathBuf};
 /// Longest line that is read, bytes. Ours have some KiB.
 const LONGEST_LINE: u64 = 1 << 20;
 
+/// Bytes at the end of a journal that [`each_last_line`] reads: some thousand lines.
+const TAIL: u64 = 1 << 20;
+
 /// A journal to append to, made by its first line.
 #[derive(Debug)]
 pub(crate) struct Journal {
@@ -92,6 +95,23 @@ pub(crate) fn each_line(path: &Path, each: impl FnMut(&[u8])) -> io::Result<()> 
     lines_of(BufReader::new(file), each)
 }
 
+/// Calls `each` with the lines in the last MiB of the journal at `path`: of a journal of which old
+/// lines do not matter, however long it has become. A line that begins before is passed over.
+///
+/// # Errors
+/// As [`each_line`].
+pub(crate) fn each_last_line(path: &Path, each: impl FnMut(&[u8])) -> io::Result<()> {
+    let mut file = open_plain(path, OpenOptions::new().read(true))?;
+    let length = file.metadata()?.len();
+    let mut tail = BufReader::new(&mut file);
+    if let Some(start) = length.checked_sub(TAIL).filter(|start| *start > 0) {
+        // From the byte before, which may end a line.
+        tail.seek(SeekFrom::Start(start - 1))?;
+        tail.skip_until(b'\n')?;
+    }
+    lines_of(tail, each)
+}
+
 /// Anybody may have written a journal: a line that is longer than any of ours is passed over, and
 /// takes no memory.
 fn lines_of(mut journal: impl BufRead, mut each: impl FnMut(&[u8])) -> io::Result<()> {
@@ -130,5 +150,25 @@ mod tests {
         })
         .expect("in memory");
         assert_eq!(lines, [&b"first"[..], b"", fits.as_bytes(), b"last"]);
+    }
+
+    #[test]
+    fn of_a_long_journal_the_last_lines_are_told_whole() {
+        let folder = tempfile::tempdir().expect("scratch folder");
+        let path = folder.path().join("a.jsonl");
+        let told = |length: usize| {
+            // Lines of eight bytes.
+            let text: String = (0..length).map(|i| format!("{i:07}\n")).collect();
+            std::fs::write(&path, text).expect("writable");
+            let mut lines: Vec<String> = Vec::new();
+            let each = |line: &[u8]| lines.push(String::from_utf8_lossy(line).into_owned());
+            each_last_line(&path, each).expect("readable");
+            assert!(lines.iter().all(|line| line.len() == 8));
+            [lines.len().to_string(), lines[0].clone()]
+        };
+        let fits = TAIL as usize / 8;
+        assert_eq!(told(3), ["3".to_owned(), "0000000\n".to_owned()]);
+        assert_eq!(told(fits), [fits.to_string(), "0000000\n".to_owned()]);
+        assert_eq!(told(fits + 5), [fits.to_string(), "0000005\n".to_owned()]);
     }
 }
