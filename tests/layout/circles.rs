@@ -3,7 +3,7 @@
 //! Unit tests do not count: they may look at any file of their room. Nor does `mod.rs`, which
 //! declares and re-exports: a path by way of it leads to the file where the item stands.
 
-use crate::paths::{module_of, paths};
+use super::paths::{module_of, paths};
 use proc_macro2::{TokenStream, TokenTree};
 use std::collections::{BTreeMap, BTreeSet};
 
