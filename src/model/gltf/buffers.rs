@@ -6,7 +6,7 @@ use crate::shot::ModelFiles;
 use base64::Engine;
 use base64::alphabet::STANDARD;
 use base64::engine::{DecodePaddingMode, GeneralPurpose, GeneralPurposeConfig};
-use gltf_json::Buffer;
+use ::gltf::json::Buffer;
 use std::borrow::Cow;
 use std::cell::{OnceCell, RefCell};
 
