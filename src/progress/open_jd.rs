@@ -10,7 +10,7 @@ use std::sync::{Mutex, OnceLock, PoisonError};
 /// Open Job Description on standard output.
 #[derive(Default)]
 pub(super) struct OpenJd {
-    /// The last share that was told, per cent.
+    /// The last share that was printed, per cent.
     percent: Mutex<f64>,
     trouble: OnceLock<io::Error>,
 }

@@ -11,7 +11,7 @@ use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::Instant;
 
-/// Progress of one run, told to its sinks. Threads may share it.
+/// Progress of one run, as events to its sinks. Threads may share it.
 ///
 /// # Example
 /// ```
@@ -21,7 +21,7 @@ use std::time::Instant;
 ///         println!("frame {frame}: {}", outcome.word());
 ///     }
 /// });
-/// progress.warn("told to the closure as Event::Warning");
+/// progress.warn("reaches the closure as Event::Warning");
 /// ```
 pub struct Progress<'a> {
     began: Instant,
@@ -41,7 +41,7 @@ struct Tally {
 }
 
 impl<'a> Progress<'a> {
-    /// Progress that any number of sinks are told of.
+    /// Progress to any number of sinks.
     pub fn new(sinks: Vec<Box<dyn Sink + 'a>>) -> Self {
         Self {
             began: Instant::now(),
@@ -50,12 +50,12 @@ impl<'a> Progress<'a> {
         }
     }
 
-    /// Progress that one sink is told of, such as a closure.
+    /// Progress to one sink, such as a closure.
     pub fn to(sink: impl Sink + 'a) -> Self {
         Self::new(vec![Box::new(sink)])
     }
 
-    /// Progress that nobody is told of.
+    /// Progress without a sink.
     pub fn silent() -> Self {
         Self::new(Vec::new())
     }

@@ -13,8 +13,8 @@ use std::fs;
 use std::path::Path;
 
 /// Seconds a ray of frames that nothing is known of: those of the gallery's rows.toml in a release
-/// build on two cores. Other scenes take a tenth to ten times as long; whoever is told of it is told
-/// that it is a guess.
+/// build on two cores. Other scenes take a tenth to ten times as long; estimates from it are
+/// marked as guesses.
 const GUESSED: Rate = Rate {
     trace: 4e-7,
     shade: 7e-8,

@@ -212,7 +212,7 @@ impl Sums {
     }
 }
 
-/// Refuses velocities that are none between two keys, before anything is told.
+/// Refuses velocities that are none between two keys, before any frame is forecast.
 fn check_motion(shot: &Shot, frames: &[u32]) -> Result<(), Mistakes> {
     let wrong = frames.par_iter().map_init(
         || Frames::new(shot),

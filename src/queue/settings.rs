@@ -1,4 +1,4 @@
-//! What a run is asked to do, where its pictures go, and who is told.
+//! Settings of a run: what is rendered, where pictures go, and where progress goes.
 
 use super::frames::FrameList;
 use super::shard::Shard;
@@ -7,7 +7,7 @@ use crate::progress::Progress;
 use crate::store::{Record, Request};
 use std::path::PathBuf;
 
-/// What a run is asked to do, where its pictures go, and who is told.
+/// Settings of a run.
 #[derive(Clone)]
 pub struct Settings<'a> {
     /// Size and samples of the pictures, and their folder.
@@ -20,7 +20,7 @@ pub struct Settings<'a> {
     pub force: Force,
     /// Where the pictures go. Default: to folders.
     pub output: Output<'a>,
-    /// Told of everything.
+    /// Takes every event.
     pub progress: &'a Progress<'a>,
     /// Once asked to stop, the work ends within two seconds.
     pub stop: &'a Stop,

@@ -24,7 +24,7 @@ impl Shard {
         [self.k, self.n]
     }
 
-    /// Which frames are this shard's, of a list told by their traces. Traces are dealt out in the
+    /// Which frames are this shard's, of a list that has the trace of each. Traces are dealt out in the
     /// order in which they first stand there, so that frames which share one stay together and
     /// shards take about equally long.
     pub fn choose<T: Hash + Eq>(self, traces: impl Iterator<Item = T>) -> Vec<bool> {

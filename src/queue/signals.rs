@@ -1,4 +1,4 @@
-//! Stopping when told to: by the terminal (SIGINT) or by whoever runs the machine (SIGTERM).
+//! Stopping on a signal: of the terminal (SIGINT) or of the system (SIGTERM).
 //!
 //! The first signal asks the work to stop; where it cannot in time (a model of gigabytes is being
 //! read, say), the process ends anyway, and a second signal ends it at once. What is finished

@@ -63,8 +63,8 @@ fn quoted(findings: &[Finding]) -> String {
     words.join("; ")
 }
 
-/// Assembles all that a shot asks for, be it there already or not; returns the files. `notes` is
-/// told what one should know. Asked to stop, it ends soon and leaves nothing that is not whole.
+/// Assembles all that a shot asks for, be it there already or not; returns the files. `notes` takes
+/// what one should know. Asked to stop, it ends soon and leaves nothing that is not whole.
 ///
 /// # Errors
 /// When a frame is missing or wrong nothing is made; when a file cannot be made the others are.
@@ -87,7 +87,7 @@ pub fn assemble(
 ///
 /// # Errors
 /// As [`assemble`].
-pub fn finish(
+pub(super) fn finish(
     shot_folder: &mut ShotFolder,
     notes: &dyn Fn(&str),
     stop: &Stop,
@@ -97,7 +97,7 @@ pub fn finish(
 }
 
 /// Whether [`finish`] would find nothing to make.
-pub fn is_finished(shot_folder: &ShotFolder) -> bool {
+pub(super) fn is_finished(shot_folder: &ShotFolder) -> bool {
     outstanding(shot_folder).is_empty()
 }
 

@@ -96,7 +96,7 @@ impl Report {
     }
 }
 
-/// Frames in a row that are told one by one; longer runs are told as one.
+/// Frames in a row that are reported one by one; longer runs are one finding.
 pub(super) const SINGLY: u32 = 12;
 
 /// Frames in a row.

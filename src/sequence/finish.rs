@@ -84,7 +84,7 @@ pub struct Assembled {
     pub failures: Vec<String>,
 }
 
-/// Assembles all that a shot asks for, and its page, be it there already or not. `notes` is told what
+/// Assembles all that a shot asks for, and its page, be it there already or not. `notes` takes what
 /// one should know. Asked to stop, it ends soon and leaves nothing that is not whole.
 ///
 /// # Errors

@@ -141,7 +141,7 @@ struct Inspected {
     grid: Option<Grid>,
 }
 
-/// Reads a file; `told` is what a manifest tells of the frame's files as they should be.
+/// Reads a file; `told` is what a manifest records of the frame's files as they should be.
 fn inspect(
     shot_folder: &ShotFolder,
     told: &[FileRecord],

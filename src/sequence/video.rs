@@ -70,7 +70,7 @@ impl Video {
     }
 }
 
-/// All that ffmpeg is told but the file's name.
+/// Arguments of ffmpeg, but for the file's name.
 fn arguments(kind: Kind, [width, height]: [u32; 2], (n, d): (i32, u32)) -> Vec<OsString> {
     let (format, codec) = match kind {
         Kind::Mp4 => ("yuv420p", "-c:v libx264 -crf 18 -preset slow"),

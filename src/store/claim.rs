@@ -119,8 +119,8 @@ pub(crate) fn refuse_link(locks: &Path) -> io::Result<()> {
     }
 }
 
-/// Opens a lock's file, made if it is not there; its folder too, which whoever drops the last claim
-/// may be removing.
+/// Opens a lock's file, made if it is not there; its folder too, which the process that drops
+/// the last claim may be removing.
 fn open(path: &Path) -> io::Result<File> {
     const ATTEMPTS: usize = 1000;
     let mut options = OpenOptions::new();

@@ -1,6 +1,6 @@
 //! Journals: files of lines of JSON that are appended and never rewritten.
 //!
-//! A line is there whole or not at all, whoever else appends and however the run ends: a killed run
+//! A line is there whole or not at all, whichever other processes append and however the run ends: a killed run
 //! loses at most the line it was writing, which the next line does not continue.
 
 use super::claim::knows_no_locks;

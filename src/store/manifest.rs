@@ -2,7 +2,7 @@
 //! rewritten, so that a killed run loses at most the line it was writing.
 //!
 //! Facts of the clock (seconds, date, host) stand here and not in the pictures, which are the same
-//! bytes whoever renders them. Of several lines on one frame the last holds. Shards write manifests
+//! bytes on every machine. Of several lines on one frame the last holds. Shards write manifests
 //! of their own beside; readers take all, and of each one's last line on a frame the latest.
 
 use super::journal::{Journal, each_line};

@@ -5,7 +5,7 @@ use indexmap::IndexMap;
 
 type Parts = IndexMap<String, String>;
 
-/// How many differences are told one by one.
+/// Number of differences that are named one by one.
 const TOLD: usize = 3;
 /// The part that changes with the renderer.
 const EPOCH: &str = "epoch";
