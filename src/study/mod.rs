@@ -7,6 +7,7 @@
 //! spectra are exact, other knobs and effects are studied with the grid.
 
 mod compare_1990;
+mod defaults;
 pub mod displacement;
 mod effects;
 mod error;
@@ -22,6 +23,7 @@ mod sweep;
 mod timed_render;
 mod whole;
 
+pub use defaults::{default_frame, default_size};
 pub use error::StudyError;
 pub use results::Study;
 pub use start::Request;
