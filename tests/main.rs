@@ -8,6 +8,8 @@
     reason = "a test's helpers fail by panicking"
 )]
 
+use std::path::{Path, PathBuf};
+
 mod accuracy;
 mod bad_shots;
 mod branches;
@@ -50,15 +52,43 @@ mod window;
 
 #[test]
 fn every_file_of_tests_is_part_of_a_binary() {
-    let declared = concat!(include_str!("main.rs"), include_str!("../Cargo.toml"));
-    let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("tests");
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests");
+    let forgotten = forgotten(&folder, include_str!("main.rs"));
+    let others = include_str!("../Cargo.toml");
+    let is_binary = |path: &PathBuf| {
+        let name = path.file_name().unwrap().to_str().unwrap();
+        name == "main.rs" || others.contains(&format!("path = \"tests/{name}\""))
+    };
+    let forgotten: Vec<PathBuf> = forgotten.into_iter().filter(|p| !is_binary(p)).collect();
+    assert_eq!(forgotten, [PathBuf::new(); 0], "compiled nowhere");
+}
+
+/// The source files below a folder that are no modules of `parent`, the text of the folder's own module,
+/// nor of one of those.
+fn forgotten(folder: &Path, parent: &str) -> Vec<PathBuf> {
+    let is_declared = |module: &str| {
+        parent.lines().any(|line| {
+            let before = line.strip_suffix(&format!("mod {module};"));
+            before.is_some_and(|before| before.is_empty() || before.starts_with("pub"))
+        })
+    };
+    let mut found = Vec::new();
     for entry in std::fs::read_dir(folder).unwrap() {
-        let name = entry.unwrap().file_name().into_string().unwrap();
-        let Some(module) = name.strip_suffix(".rs") else {
-            continue;
-        };
-        let as_module = declared.contains(&format!("\nmod {module};\n"));
-        let as_binary = declared.contains(&format!("path = \"tests/{name}\""));
-        assert!(as_module || as_binary, "tests/{name} is compiled nowhere");
+        let path = entry.unwrap().path();
+        let stem = path.file_stem().unwrap().to_str().unwrap();
+        if path.is_dir() {
+            let files = [path.with_extension("rs"), path.join("mod.rs")];
+            let text = files
+                .iter()
+                .find_map(|file| std::fs::read_to_string(file).ok());
+            found.extend(forgotten(&path, &text.unwrap_or_default()));
+            if files[1].is_file() && !is_declared(stem) {
+                found.push(files[1].clone());
+            }
+        } else if path.extension().is_some_and(|e| e == "rs") && stem != "mod" && !is_declared(stem)
+        {
+            found.push(path);
+        }
     }
+    found
 }

@@ -231,13 +231,9 @@ fn what_an_image_does_not_call_for_is_told_and_a_static_one_has_rgb() {
 fn the_command_writes_three_files_and_leaves_nothing_else() {
     let path = shot("command", "[0.3, 0, 0]", "");
     let out = folder("command-out");
-    let done = Desk::new()
-        .command("study --scale 0.05 --samples 1 --repeats 1 --json")
-        .arg(&path)
-        .arg("--out")
-        .arg(&out)
-        .output();
-    let done = Outcome::of(done.expect("it runs"));
+    let desk = Desk::new();
+    let mut command = desk.command("study --scale 0.05 --samples 1 --repeats 1 --json");
+    let done = Outcome::of_call(command.arg(&path).arg("--out").arg(&out));
     assert_eq!(done.status, 0, "{}", done.stderr);
     let printed: serde_json::Value = serde_json::from_str(&done.stdout).expect("JSON alone");
     assert_eq!(printed["size"], serde_json::json!([16, 9]));
@@ -258,8 +254,8 @@ fn the_command_writes_three_files_and_leaves_nothing_else() {
 #[test]
 fn a_frame_that_the_shot_has_not_is_refused() {
     let path = shot("refused", "[0, 0, 0]", "");
-    let refused = Desk::new().command("study --frame 2").arg(&path).output();
-    let refused = Outcome::of(refused.expect("it runs"));
+    let desk = Desk::new();
+    let refused = Outcome::of_call(desk.command("study --frame 2").arg(&path));
     assert_eq!(refused.status, 2);
     let said = refused.stderr;
     assert!(said.contains("the shot has frames 1 to 1, not 2"), "{said}");

@@ -17,7 +17,7 @@ pub(super) fn run(arguments: &FinishedArguments) -> Result<(), Failed> {
         if stop.status().is_some() {
             break;
         }
-        let shot_folder = match open(path, arguments) {
+        let shot_folder = match open(path, &arguments.pictures) {
             Ok(shot_folder) => shot_folder,
             Err(unopened) => {
                 reports.push(unopened.as_json(path));

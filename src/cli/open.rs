@@ -1,6 +1,6 @@
 //! Opening of shots' folders for a command, and the combined exit status of several shots.
 
-use super::{Failed, FinishedArguments, MISTAKE, failed, mistaken, misused};
+use super::{Failed, MISTAKE, PictureArguments, failed, mistaken, misused};
 use crate::shot::{self, Mistakes};
 use crate::store::{FolderError, ShotFolder};
 use serde_json::{Value, json};
@@ -45,9 +45,9 @@ impl Unopened {
 }
 
 /// Opens the folder of a shot's finished frames.
-pub(super) fn open(path: &Path, arguments: &FinishedArguments) -> Result<ShotFolder, Unopened> {
+pub(super) fn open(path: &Path, pictures: &PictureArguments) -> Result<ShotFolder, Unopened> {
     let shot = shot::load(path).map_err(|m| Unopened::mistaken(&m))?;
-    let request = arguments.pictures.request();
+    let request = pictures.request();
     if let Err(why) = request.check(&shot) {
         let failed = misused(&why);
         let why = Why::Words(why);

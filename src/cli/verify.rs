@@ -14,7 +14,7 @@ pub(super) fn run(arguments: &FinishedArguments) -> Result<(), Failed> {
     let mut worst = None;
     let mut list = arguments.json.then(List::new);
     for path in &arguments.shots {
-        let shot_folder = match open(path, arguments) {
+        let shot_folder = match open(path, &arguments.pictures) {
             Ok(shot_folder) => shot_folder,
             Err(unopened) => {
                 if let Some(list) = &mut list {

@@ -16,7 +16,7 @@ use crate::color::cie;
 use crate::film::Channels;
 use crate::frame::{Frame, Sensor};
 use crate::plot::{Axis, Color, LEAST_INSET, Panel, Plot, Scale, Stroke, round_up};
-use crate::render::{self, Member, View};
+use crate::render::{self, InsetTooSmall, Member, View};
 use crate::scene::{Scene, Thermal};
 use crate::shade::Radiance;
 use crate::shot::Effects;
@@ -31,39 +31,45 @@ const BESIDE: f64 = 10.0;
 /// Number of wavelengths of a curve at most: more than any image has columns for it.
 const MOST: f64 = 8192.0;
 
-/// What the insets of an image of `size` pixels show, in the order of the shot's; None where one is
-/// too small to be read. Exposure is in stops.
+/// What the insets of an image of `size` pixels show, in the order of the shot's. Exposure is in stops.
 pub fn insets(
     member: Member<'_>,
     aggregate: &Aggregate,
     exposure: f64,
     size: [u32; 2],
-) -> Vec<Option<Plot>> {
+) -> Vec<Result<Plot, InsetTooSmall>> {
     let Member { frame, scene } = member;
-    // Insets under the same effects share one view.
-    let mut views: Vec<(Effects, View<'_>)> = Vec::new();
-    let mut plots = Vec::new();
-    for inset in frame.insets {
-        let (_, [_, height]) = inset.place_in(size);
-        if f64::from(height) < LEAST_INSET {
-            plots.push(None);
-            continue;
-        }
-        let pixel = inset.pixel_of(frame.image.size);
-        let effects = frame.effects_at(pixel[1]);
-        let known = views.iter().position(|(under, _)| *under == effects);
-        let place = match known {
-            Some(place) => place,
-            None => {
-                let view = View::new(frame, &effects, scene, aggregate);
-                views.push((effects, view));
-                views.len() - 1
+    let seen: Vec<Result<([u32; 2], Effects), InsetTooSmall>> = frame
+        .insets
+        .iter()
+        .map(|inset| {
+            let pixel = inset.pixel_of(frame.image.size);
+            let (_, [_, height]) = inset.place_in(size);
+            match f64::from(height) < LEAST_INSET {
+                true => Err(InsetTooSmall { pixel, height }),
+                false => Ok((pixel, frame.effects_at(pixel[1]))),
             }
+        })
+        .collect();
+    // One view at a time: insets under the same effects share it.
+    let mut plots: Vec<Option<Plot>> = vec![None; seen.len()];
+    for first in 0..seen.len() {
+        let (Ok((_, effects)), None) = (&seen[first], &plots[first]) else {
+            continue;
         };
-        let (_, view) = &views[place];
-        plots.push(Some(self::inset(frame, pixel, view, scene, exposure)));
+        let view = View::new(frame, effects, scene, aggregate);
+        for (plot, seen) in plots.iter_mut().zip(&seen) {
+            if let Ok((pixel, under)) = seen
+                && under == effects
+            {
+                *plot = Some(inset(frame, *pixel, &view, scene, exposure));
+            }
+        }
     }
-    plots
+    let plot = |(seen, plot): (Result<_, _>, Option<Plot>)| {
+        seen.map(|_| plot.expect("every inset that is not too small was looked up"))
+    };
+    seen.into_iter().zip(plots).map(plot).collect()
 }
 
 /// The plot of what the centre of `pixel`, which lies in the frame's image, sees in `view`. Exposure

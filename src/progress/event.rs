@@ -17,7 +17,8 @@ pub enum Event<'a> {
     },
     /// Some of the work is done.
     Advance {
-        /// Share of the whole, counted in expected cost: 0 to 1.
+        /// Share of the whole, counted in expected cost: 0 to 1. It steps back after
+        /// a failed batch, which is rendered again.
         share: f64,
     },
     /// A frame is settled.
@@ -63,6 +64,9 @@ pub struct Summary {
 }
 
 /// A listener to the events of a run, called from any of its threads. Any closure is one.
+///
+/// Sinks are called outside of the lock that counts, so that a slow one holds up its own thread alone.
+/// Events of two threads may thus arrive in the other order: shares of work may step back.
 pub trait Sink: Send + Sync {
     /// Takes an event. Failures are the sink's own: the run continues.
     fn event(&self, event: &Event<'_>);

@@ -11,7 +11,7 @@ use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::Instant;
 
-/// Progress of one run, told to its sinks. Threads may share it.
+/// Progress of one run, as events to its sinks. Threads may share it.
 ///
 /// # Example
 /// ```
@@ -21,7 +21,7 @@ use std::time::Instant;
 ///         println!("frame {frame}: {}", outcome.word());
 ///     }
 /// });
-/// progress.warn("told to the closure as Event::Warning");
+/// progress.warn("reaches the closure as Event::Warning");
 /// ```
 pub struct Progress<'a> {
     began: Instant,

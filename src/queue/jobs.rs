@@ -1,11 +1,10 @@
 //! The jobs of a run: shots opened, frames chosen, and all errors.
 
-use super::frames::FrameList;
+use super::frames::{FrameList, Resolved};
 use super::job::{Job, choose_shard};
 use super::settings::Settings;
-use crate::progress::Progress;
 use crate::shot::{Mistakes, Shot};
-use crate::store::{FolderError, Names, Request, ShotFolder};
+use crate::store::{FolderError, Names, ShotFolder};
 use std::collections::HashMap;
 
 /// The jobs of a run, and the errors of the others.
@@ -36,8 +35,7 @@ impl JobList {
         if settings.output.is_folder() {
             refuse_same_folder(shots)?;
         }
-        let choose = |shot| choose(shot, &settings.request, &settings.frames, progress);
-        let chosen = shots.iter().map(choose);
+        let chosen = shots.iter().map(|shot| checked(shot, settings));
         let chosen = chosen.collect::<Result<Vec<_>, _>>()?;
         let mut list = Self::default();
         let mut folders = Vec::new();
@@ -99,30 +97,31 @@ fn refuse_same_folder(shots: &[Shot]) -> Result<(), Contradiction> {
     Ok(())
 }
 
-/// The frames asked for that a shot has, at least one. Warns of others.
+/// Finds the frames of a list that a shot has, at least one.
 ///
 /// # Errors
-/// A size that is too large, a list that has none of the shot's frames.
-pub(super) fn choose(
-    shot: &Shot,
-    request: &Request,
-    list: &FrameList,
-    progress: &Progress<'_>,
-) -> Result<Vec<u32>, Contradiction> {
+/// A list that has none of them.
+pub fn choose(shot: &Shot, list: &FrameList) -> Result<Resolved, Contradiction> {
     let frames = shot.shot.frames;
-    let path = shot.path.display();
     let chosen = list.resolve(frames);
-    request.check(shot).map_err(Contradiction)?;
     if chosen.frames.is_empty() {
         return Err(Contradiction(format!(
-            "{path} has frames 1 to {frames}; none was chosen"
+            "{} has frames 1 to {frames}; none was chosen",
+            shot.path.display()
         )));
     }
-    if chosen.outside > 0 {
-        let outside = chosen.outside;
-        progress.warn(&format!(
-            "{path} has frames 1 to {frames}; {outside} others are left out"
+    Ok(chosen)
+}
+
+/// The frames of a shot that are asked for. Warns of frames that it does not have.
+fn checked(shot: &Shot, settings: &Settings<'_>) -> Result<Vec<u32>, Contradiction> {
+    settings.request.check(shot).map_err(Contradiction)?;
+    let Resolved { frames, outside } = choose(shot, &settings.frames)?;
+    if outside > 0 {
+        let (path, all) = (shot.path.display(), shot.shot.frames);
+        settings.progress.warn(&format!(
+            "{path} has frames 1 to {all}; {outside} others are left out"
         ));
     }
-    Ok(chosen.frames)
+    Ok(frames)
 }

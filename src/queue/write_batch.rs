@@ -12,7 +12,9 @@ use crate::frame::Frame;
 use crate::plot::Plot;
 use crate::probe;
 use crate::progress::FrameOutcome;
-use crate::render::{Member, PictureInfo, Pictures, Together, encode, left_out_warning};
+use crate::render::{
+    InsetTooSmall, Member, PictureInfo, Pictures, Together, encode, left_out_warning,
+};
 use crate::scene::Scene;
 use crate::store::{FileRecord, Record, Seconds, is_full, now, twice, write_atomically};
 use rayon::prelude::*;
@@ -26,7 +28,7 @@ type Rendered<'a> = (ClaimedFrame, &'a Scene, Film);
 #[derive(Default)]
 struct Probed {
     /// Plots of its insets.
-    insets: Vec<Option<Plot>>,
+    insets: Vec<Result<Plot, InsetTooSmall>>,
     /// How much of its light was not followed, if that is much.
     left_out: Option<String>,
 }

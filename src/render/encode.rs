@@ -29,8 +29,21 @@ pub struct PictureInfo<'a> {
     pub fingerprint: Option<&'a str>,
 }
 
+/// An inset that would be too small to be read.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[error(
+    "the inset of pixel {} {} is left out: it would be {height} pixels high, and needs {least} to be read; render a larger image, or raise its `size`",
+    .pixel[0], .pixel[1], least = LEAST_INSET
+)]
+pub struct InsetTooSmall {
+    /// Its pixel in the shot's image.
+    pub pixel: [u32; 2],
+    /// Rows of the image that it would take.
+    pub height: u32,
+}
+
 /// Develops a film and encodes it in the shot's formats. `insets` are what the shot's insets show, in
-/// their order; None where one is too small to be read. Nothing is traced here.
+/// their order. Nothing is traced here.
 ///
 /// # Errors
 /// When an encoder refuses.
@@ -38,7 +51,7 @@ pub fn encode(
     frame: &Frame<'_>,
     scene: &Scene,
     film: &Film,
-    insets: &[Option<Plot>],
+    insets: &[Result<Plot, InsetTooSmall>],
     info: PictureInfo<'_>,
 ) -> Result<Pictures, EncodeError> {
     let development = development(frame.sensor.color, info.exposure_stops);
@@ -87,17 +100,13 @@ pub fn encode(
 fn draw(
     frame: &Frame<'_>,
     inset: &Inset,
-    plot: Option<&Plot>,
+    plot: Result<&Plot, &InsetTooSmall>,
     rgb8: &mut [u8],
     size: [u32; 2],
 ) -> Result<(), String> {
     let [x, y] = inset.pixel_of(frame.image.size);
     let (corner, [width, height]) = inset.place_in(size);
-    let plot = plot.ok_or_else(|| {
-        format!(
-            "the inset of pixel {x} {y} is left out: it would be {height} pixels high, and needs {LEAST_INSET} to be read; render a larger image, or raise its `size`"
-        )
-    })?;
+    let plot = plot.map_err(ToString::to_string)?;
     let drawing = lay_out_inset(plot, [width, height].map(f64::from));
     let drawn = raster::paint(&svg(&drawing), width, height).ok_or_else(|| {
         format!("the inset of pixel {x} {y} is too large to be painted; lower its `size`")

@@ -20,7 +20,7 @@ mod view;
 mod watch;
 
 pub use development::{channels, development};
-pub use encode::{PictureInfo, Pictures, encode};
+pub use encode::{InsetTooSmall, PictureInfo, Pictures, encode};
 pub use lab_path::LabPath;
 pub use left_out::{Enough, enough_bounces, left_out_warning};
 pub(crate) use left_out::{deeper, least};

@@ -87,7 +87,7 @@ pub fn assemble(
 ///
 /// # Errors
 /// As [`assemble`].
-pub fn finish(
+pub(super) fn finish(
     shot_folder: &mut ShotFolder,
     notes: &dyn Fn(&str),
     stop: &Stop,
@@ -97,7 +97,7 @@ pub fn finish(
 }
 
 /// Whether [`finish`] would find nothing to make.
-pub fn is_finished(shot_folder: &ShotFolder) -> bool {
+pub(super) fn is_finished(shot_folder: &ShotFolder) -> bool {
     outstanding(shot_folder).is_empty()
 }
 

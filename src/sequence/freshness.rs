@@ -4,7 +4,7 @@
 use super::output::Output;
 use crate::frame::Caption;
 use crate::image::decode::open;
-use crate::store::{Journal, ShotFolder, each_line};
+use crate::store::{Journal, ShotFolder, each_last_line};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use serde_json::json;
@@ -58,7 +58,7 @@ fn key(shot_folder: &ShotFolder, output: Output) -> String {
 }
 
 fn journal(shot_folder: &ShotFolder) -> Journal {
-    Journal::new(path(shot_folder), String::new())
+    Journal::new(path(shot_folder), None)
 }
 
 fn path(shot_folder: &ShotFolder) -> PathBuf {
@@ -82,7 +82,7 @@ pub(super) fn remember_output(shot_folder: &ShotFolder, output: Output) -> io::R
 /// Whether a file of this name exists as it was made from inputs with this key.
 pub(super) fn holds(shot_folder: &ShotFolder, name: &str, key: impl Fn() -> String) -> bool {
     let mut last = None;
-    let _unread = each_line(&path(shot_folder), |line| {
+    let _unread = each_last_line(&path(shot_folder), |line| {
         if let Ok(line) = serde_json::from_slice::<Line>(line)
             && line.assembled == name
         {

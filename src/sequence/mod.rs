@@ -21,7 +21,7 @@ mod splices;
 mod verify;
 mod video;
 
-pub use assemble::{AssembleError, assemble, finish, foreseen, is_finished};
+pub use assemble::{AssembleError, assemble, foreseen};
 pub use findings::{Finding, Kind, Report};
 pub use finish::{Assembled, Unfinished, assemble_all, finish_shot};
 pub use frame_image::{FrameImage, FrameImageError, read};

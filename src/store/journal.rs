@@ -14,17 +14,20 @@ use std::path::{Path, PathBuf};
 /// Length of the longest line that is read, bytes. Ours have a few KiB.
 const LONGEST_LINE: u64 = 1 << 20;
 
+/// Bytes at the end of a journal that [`each_last_line`] reads: some thousand lines.
+const TAIL: u64 = 1 << 20;
+
 /// A journal to append to, created with its first line.
 #[derive(Debug)]
 pub(crate) struct Journal {
     path: PathBuf,
-    /// The first line of a new journal; empty for none.
-    opening: String,
+    /// The first line of a new journal, if it has one.
+    opening: Option<String>,
 }
 
 impl Journal {
-    /// The journal at `path`, which begins with the line `opening` if that is not empty.
-    pub(crate) fn new(path: PathBuf, opening: String) -> Self {
+    /// The journal at `path`, which begins with the line `opening` if there is one.
+    pub(crate) fn new(path: PathBuf, opening: Option<String>) -> Self {
         Self { path, opening }
     }
 
@@ -51,8 +54,10 @@ impl Journal {
         }
         let length = file.seek(SeekFrom::End(0))?;
         let mut text = match length {
-            0 if self.opening.is_empty() => String::new(),
-            0 => format!("{}\n", self.opening),
+            0 => self
+                .opening
+                .as_ref()
+                .map_or_else(String::new, |line| format!("{line}\n")),
             _ if ends_a_line(&mut file)? => String::new(),
             // A killed run left an incomplete line.
             _ => "\n".to_owned(),
@@ -89,6 +94,23 @@ fn ends_a_line(file: &mut File) -> io::Result<bool> {
 pub(crate) fn each_line(path: &Path, each: impl FnMut(&[u8])) -> io::Result<()> {
     let file = open_plain(path, OpenOptions::new().read(true))?;
     lines_of(BufReader::new(file), each)
+}
+
+/// Calls `each` with the lines in the last MiB of the journal at `path`: of a journal of which old
+/// lines do not matter, however long it has become. A line that begins before is passed over.
+///
+/// # Errors
+/// As [`each_line`].
+pub(crate) fn each_last_line(path: &Path, each: impl FnMut(&[u8])) -> io::Result<()> {
+    let mut file = open_plain(path, OpenOptions::new().read(true))?;
+    let length = file.metadata()?.len();
+    let mut tail = BufReader::new(&mut file);
+    if let Some(start) = length.checked_sub(TAIL).filter(|start| *start > 0) {
+        // From the byte before, which may end a line.
+        tail.seek(SeekFrom::Start(start - 1))?;
+        tail.skip_until(b'\n')?;
+    }
+    lines_of(tail, each)
 }
 
 /// Journals may come from anyone: a line longer than any of ours is skipped, and takes no memory.
@@ -128,5 +150,25 @@ mod tests {
         })
         .expect("in memory");
         assert_eq!(lines, [&b"first"[..], b"", fits.as_bytes(), b"last"]);
+    }
+
+    #[test]
+    fn of_a_long_journal_the_last_lines_are_told_whole() {
+        let folder = tempfile::tempdir().expect("scratch folder");
+        let path = folder.path().join("a.jsonl");
+        let told = |length: usize| {
+            // Lines of eight bytes.
+            let text: String = (0..length).map(|i| format!("{i:07}\n")).collect();
+            std::fs::write(&path, text).expect("writable");
+            let mut lines: Vec<String> = Vec::new();
+            let each = |line: &[u8]| lines.push(String::from_utf8_lossy(line).into_owned());
+            each_last_line(&path, each).expect("readable");
+            assert!(lines.iter().all(|line| line.len() == 8));
+            [lines.len().to_string(), lines[0].clone()]
+        };
+        let fits = TAIL as usize / 8;
+        assert_eq!(told(3), ["3".to_owned(), "0000000\n".to_owned()]);
+        assert_eq!(told(fits), [fits.to_string(), "0000000\n".to_owned()]);
+        assert_eq!(told(fits + 5), [fits.to_string(), "0000005\n".to_owned()]);
     }
 }

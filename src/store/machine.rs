@@ -43,6 +43,8 @@ fn rfc_3339(since_1970: Duration) -> String {
     format!("{year:04}-{month:02}-{day:02}T{hour:02}:{minute:02}:{second:02}.{millis:03}Z")
 }
 
+// No crate that is built anyway turns seconds into a date (`toml_datetime` only formats one).
+
 /// Year, month and day, this many days after 1970-01-01: `civil_from_days` of H. Hinnant,
 /// "chrono-Compatible Low-Level Date Algorithms" (2013). Its years begin in March, so that a leap
 /// day is their last, and repeat after 400, which have 146 097 days.

@@ -188,7 +188,7 @@ impl ManifestWriter {
             "version": env!("CARGO_PKG_VERSION"),
         });
         let path = folder.join(names.manifest(shard));
-        let journal = Journal::new(path, opening.to_string());
+        let journal = Journal::new(path, Some(opening.to_string()));
         journal.append::<()>(&[])?;
         Ok(Self(journal))
     }

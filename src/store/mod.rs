@@ -29,7 +29,7 @@ pub use write_error::explain;
 
 pub(crate) use atomic::check_writable;
 pub(crate) use claim::refuse_link;
-pub(crate) use journal::{Journal, each_line};
+pub(crate) use journal::{Journal, each_last_line};
 pub(crate) use machine::{forget_peak, free_memory_mib, host, now, peak_memory_mib};
 pub(crate) use manifest::{Found, ManifestWriter};
 pub(crate) use write_error::{is_full, twice};

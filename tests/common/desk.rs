@@ -1,8 +1,11 @@
 //! A folder of its own in which the program is called.
 
 use std::fs;
+use std::io::Read;
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Output, Stdio};
+use std::thread::JoinHandle;
+use std::time::{Duration, Instant};
 use tempfile::TempDir;
 
 /// The folder; gone when dropped.
@@ -53,7 +56,7 @@ impl Desk {
     }
 
     pub(crate) fn call(&self, arguments: &str) -> Outcome {
-        Outcome::of(self.command(arguments).output().unwrap())
+        Outcome::of_call(&mut self.command(arguments))
     }
 
     /// A call that must succeed.
@@ -70,7 +73,7 @@ impl Desk {
             .args(["-c", line])
             .current_dir(self.0.path())
             .env("restframe", env!("CARGO_BIN_EXE_restframe"));
-        Outcome::of(command.output().unwrap())
+        Outcome::of_call(&mut command)
     }
 }
 
@@ -81,7 +84,36 @@ pub(crate) struct Outcome {
     pub(crate) stderr: String,
 }
 
+/// How long a call may take: each takes seconds, and more on a busy machine.
+const DEADLINE: Duration = Duration::from_secs(120);
+
 impl Outcome {
+    /// Calls a program, and ends it where it hangs.
+    pub(crate) fn of_call(command: &mut Command) -> Self {
+        command.stdin(Stdio::null());
+        command.stdout(Stdio::piped()).stderr(Stdio::piped());
+        let mut child = command.spawn().unwrap();
+        let stdout = read_all(child.stdout.take().unwrap());
+        let stderr = read_all(child.stderr.take().unwrap());
+        let begun = Instant::now();
+        let status = loop {
+            if let Some(status) = child.try_wait().unwrap() {
+                break status;
+            }
+            if begun.elapsed() > DEADLINE {
+                child.kill().unwrap();
+                child.wait().unwrap();
+                panic!("{command:?} has not ended after {DEADLINE:?}");
+            }
+            std::thread::sleep(Duration::from_millis(2));
+        };
+        Self::of(Output {
+            status,
+            stdout: stdout.join().unwrap(),
+            stderr: stderr.join().unwrap(),
+        })
+    }
+
     pub(crate) fn of(output: Output) -> Self {
         let text = |bytes| String::from_utf8(bytes).expect("UTF-8");
         let (stdout, stderr) = (text(output.stdout), text(output.stderr));
@@ -93,4 +125,13 @@ impl Outcome {
             stderr,
         }
     }
+}
+
+/// Reads a pipe to its end, so that its writer does not wait.
+fn read_all(mut pipe: impl Read + Send + 'static) -> JoinHandle<Vec<u8>> {
+    std::thread::spawn(move || {
+        let mut bytes = Vec::new();
+        pipe.read_to_end(&mut bytes).unwrap();
+        bytes
+    })
 }

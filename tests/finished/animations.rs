@@ -2,8 +2,6 @@
 
 use super::desk::{Desk, FRAMES, SMALL, apart};
 use image::AnimationDecoder;
-use restframe::queue::Stop;
-use restframe::sequence::finish;
 use std::fs::{self, File};
 use std::io::{BufReader, Cursor};
 use std::process::{Command, Stdio};
@@ -109,10 +107,18 @@ fn many_colors_are_near_in_a_gif_and_what_stands_still_does_not_flicker() {
 #[test]
 fn a_second_pass_makes_what_is_not_there_or_of_other_frames() {
     let desk = Desk::small("apng = true\ngif = true");
+    // But for the page, at the end of rendering.
     let finished = || {
-        finish(&mut desk.shot_folder(), &|_| {}, &Stop::default())
-            .unwrap()
-            .len()
+        let told = desk.call(&["render", "passing.toml", "--frames", "1", "--json"]);
+        assert_eq!(told.status, 0, "{}", told.stderr);
+        let is_assembled = |event: &serde_json::Value| {
+            let file = event["file"].as_str().unwrap_or_default();
+            event["event"] == "assembled" && !file.ends_with(".html")
+        };
+        told.events()
+            .iter()
+            .filter(|event| is_assembled(event))
+            .count()
     };
     assert_eq!(finished(), 2);
     assert_eq!(finished(), 0);

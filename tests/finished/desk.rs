@@ -102,7 +102,7 @@ impl Desk {
     /// Calls restframe with programs looked for in other folders.
     pub(crate) fn call_with_path(&self, arguments: &[&str], path: &str) -> Outcome {
         let mut command = self.0.command("");
-        Outcome::of(command.args(arguments).env("PATH", path).output().unwrap())
+        Outcome::of_call(command.args(arguments).env("PATH", path))
     }
 
     /// Puts a program called ffmpeg into a folder, which gets first in the path that is returned.

@@ -77,15 +77,15 @@ fn names_that_are_no_text_are_rendered_and_told_with_what_of_them_is() {
         ("check --json", 0),
     ] {
         let mut command = desk.command(call);
-        let outcome = Outcome::of(command.arg(name).output().unwrap());
+        let outcome = Outcome::of_call(command.arg(name));
         assert_eq!(outcome.status, status, "{call}: {}", outcome.stderr);
     }
     let mut command = desk.command("render --frames 2 --json");
-    let outcome = Outcome::of(command.arg(name).output().unwrap());
+    let outcome = Outcome::of_call(command.arg(name));
     assert_eq!(outcome.events()[0]["shots"][0], "p\u{fffd}ssing.toml");
     // Both would write to the folder p\u{fffd}ssing.
     let mut command = desk.command("render --frames 1");
-    let outcome = Outcome::of(command.args([name, same]).output().unwrap());
+    let outcome = Outcome::of_call(command.args([name, same]));
     assert_eq!(outcome.status, 2, "{}", outcome.stderr);
 }
 

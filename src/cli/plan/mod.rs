@@ -4,34 +4,25 @@
 mod words;
 
 use super::answer::{Answer, Reader};
-use super::{Failed, PlanArguments, failed, frames, mistaken, misused, print};
+use super::open::open;
+use super::{Failed, PlanArguments, frames, mistaken, misused, print};
 use crate::frame::Reason;
-use crate::queue::{Forecast, FrameForecast, Totals};
-use crate::shot::{self, Beaming};
-use crate::store::{FolderError, ShotFolder, Status};
+use crate::queue::{Forecast, FrameForecast, choose};
+use crate::shot::Beaming;
+use crate::store::{ShotFolder, Status};
 use indexmap::IndexSet;
 use serde::{Serialize, Serializer};
 use serde_json::json;
+use std::convert::Infallible;
 use std::ops::ControlFlow;
 use words::{head, line, sentences, word};
 
 /// Runs the command.
 pub(super) fn run(arguments: &PlanArguments) -> Result<(), Failed> {
-    let shot = shot::load(&arguments.shot).map_err(|m| mistaken(&m))?;
-    let request = arguments.pictures.request();
-    request.check(&shot).map_err(|why| misused(&why))?;
-    let all = shot.shot.frames;
-    let chosen = frames(arguments.frames.as_ref()).resolve(all).frames;
-    if chosen.is_empty() {
-        let path = shot.path.display();
-        let message = format!("{path} has frames 1 to {all}; none was chosen");
-        return Err(misused(&message));
-    }
-    let folder = ShotFolder::open(&shot, &request).map_err(|error| match error {
-        FolderError::Mistakes(mistakes) => mistaken(&mistakes),
-        FolderError::Folder { .. } => failed(&error.to_string()),
-    })?;
-    let forecast = Forecast::new(&folder, chosen).map_err(|m| mistaken(&m))?;
+    let folder = open(&arguments.shot, &arguments.pictures).map_err(|unopened| unopened.failed)?;
+    let chosen = choose(folder.shot(), &frames(arguments.frames.as_ref()));
+    let chosen = chosen.map_err(|error| misused(&error.to_string()))?;
+    let forecast = Forecast::new(&folder, chosen.frames).map_err(|m| mistaken(&m))?;
     if arguments.json {
         tell_json(&forecast)
     } else {
@@ -73,11 +64,10 @@ fn tell(folder: &ShotFolder, forecast: &Forecast<'_>) -> Result<(), Failed> {
                 Some(run) if run.takes(&planned) => run.last = [planned.frame, planned.trace],
                 _ => runs.push(Run::of(planned)),
             }
-            ControlFlow::<Totals>::Continue(())
+            ControlFlow::<Infallible>::Continue(())
         },
     );
-    let (ControlFlow::Continue(totals) | ControlFlow::Break(totals)) =
-        told.map_err(|m| mistaken(&m))?;
+    let ControlFlow::Continue(totals) = told.map_err(|m| mistaken(&m))?;
     print(&head(folder, &totals))?;
     let mut said = IndexSet::new();
     for run in &runs {

@@ -6,10 +6,10 @@
 use super::extensions::unsupported;
 use super::source::Source;
 use crate::model::ModelError;
-use gltf_json::accessor::{Accessor, ComponentType, Type, sparse::Sparse};
-use gltf_json::buffer::View;
-use gltf_json::validation::Checked;
-use gltf_json::{Index, validation::USize64};
+use ::gltf::json::accessor::{Accessor, ComponentType, Type, sparse::Sparse};
+use ::gltf::json::buffer::View;
+use ::gltf::json::validation::Checked;
+use ::gltf::json::{Index, validation::USize64};
 
 /// Number of accessor elements decoded for one file at most; shared accessors count each time.
 pub(super) const MAX_ELEMENTS: u64 = 1 << 27;

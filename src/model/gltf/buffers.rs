@@ -3,10 +3,10 @@
 
 use crate::model::ModelError;
 use crate::shot::ModelFiles;
+use ::gltf::json::Buffer;
 use base64::Engine;
 use base64::alphabet::STANDARD;
 use base64::engine::{DecodePaddingMode, GeneralPurpose, GeneralPurposeConfig};
-use gltf_json::Buffer;
 use std::borrow::Cow;
 use std::cell::{OnceCell, RefCell};
 

@@ -4,7 +4,7 @@
 use super::extensions;
 use crate::model::{ModelError, Warning};
 use crate::shot::{GltfJson, TextFault};
-use gltf_json::Root;
+use ::gltf::json::Root;
 use serde_json::{Map, Value, json};
 use std::path::Path;
 

@@ -5,9 +5,9 @@
 
 use super::source::{Source, name_of};
 use crate::model::{LUMENS_PER_WATT, Model, ModelError, ModelMaterial, Warning};
-use gltf_json::Material;
-use gltf_json::material::AlphaMode;
-use gltf_json::validation::Checked;
+use ::gltf::json::Material;
+use ::gltf::json::material::AlphaMode;
+use ::gltf::json::validation::Checked;
 use serde_json::Value;
 
 /// The value of `asset.generator` in files by Blender's exporter, perhaps after the name of an

@@ -9,8 +9,8 @@ use super::source::{Source, name_of};
 use crate::model::mesh::is_in_range;
 use crate::model::{Model, ModelError, Placement, Warning};
 use ::glam::{DAffine3, DMat3, DMat4, DQuat, DVec3};
-use gltf_json::Index;
-use gltf_json::accessor::{Accessor, ComponentType};
+use ::gltf::json::Index;
+use ::gltf::json::accessor::{Accessor, ComponentType};
 use serde_json::Value;
 use std::collections::HashMap;
 

@@ -5,10 +5,10 @@ use super::source::{Source, name_of};
 use crate::model::mesh::RawMesh;
 use crate::model::{Mesh, Model, ModelError, Warning};
 use ::glam::DVec3;
-use gltf_json::Index;
-use gltf_json::accessor::{Accessor, ComponentType};
-use gltf_json::mesh::{Mode, Primitive, Semantic};
-use gltf_json::validation::Checked;
+use ::gltf::json::Index;
+use ::gltf::json::accessor::{Accessor, ComponentType};
+use ::gltf::json::mesh::{Mode, Primitive, Semantic};
+use ::gltf::json::validation::Checked;
 
 impl Source<'_> {
     /// Reads one mesh of the file and returns the indices of the meshes that it has become.

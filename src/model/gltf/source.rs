@@ -2,7 +2,7 @@
 
 use super::buffers::Buffers;
 use crate::model::ModelError;
-use gltf_json::{Index, Root};
+use ::gltf::json::{Index, Root};
 use serde_json::Value;
 use std::cell::Cell;
 use std::path::PathBuf;
