@@ -1,10 +1,14 @@
-//! The house rules of `src/`: imports point up the list of rooms, every file opens with `//!`, and
-//! files stay short.
-//!
-//! Imports are read from the tokens of the source, so that comments, doc links and strings do not
-//! count, and every path that leaves its room does, in a `use` or not.
+//! The house rules of `src/`: imports point up the list of rooms, no two files of a room import each
+//! other in a circle, `mod.rs` only declares, every file opens with `//!`, and files stay short.
 
-use proc_macro2::{Delimiter, TokenStream, TokenTree};
+#[path = "layout/circles.rs"]
+mod circles;
+#[path = "layout/paths.rs"]
+mod paths;
+
+use circles::Files;
+use paths::{module_of, paths};
+use proc_macro2::{TokenStream, TokenTree};
 use std::path::Path;
 
 /// The rooms, each importing only from those above it. Those on one line do not know each other,
@@ -53,10 +57,18 @@ fn faults(files: &[(String, String)]) -> Vec<String> {
             ));
         }
         match text.parse::<TokenStream>() {
-            Ok(tokens) => faults.extend(bad_imports(path, tokens)),
+            Ok(tokens) => {
+                if path.ends_with("mod.rs") && !only_declares(&tokens) {
+                    faults.push(format!(
+                        "{path}: holds items of its own; it should declare and re-export alone"
+                    ));
+                }
+                faults.extend(bad_imports(path, tokens));
+            }
             Err(error) => faults.push(format!("{path}: {error}")),
         }
     }
+    faults.extend(Files::new(files).circles());
     for (path, _) in LONG {
         let long = |(p, text): &(String, String)| p == path && text.lines().count() > MAX_LINES;
         if !files.iter().any(long) {
@@ -78,9 +90,10 @@ fn bad_imports(path: &str, tokens: TokenStream) -> Vec<String> {
             "{path}: {room} is no room; give it its place in tests/layout.rs"
         )];
     }
-    let mut imports = Vec::new();
-    collect(tokens, &module, &mut imports);
-    imports.sort();
+    let mut imports: Vec<String> = paths(tokens, &module)
+        .into_iter()
+        .filter_map(|path| path.into_iter().next())
+        .collect();
     imports.dedup();
     let fault = |import: String| {
         if import == room {
@@ -102,86 +115,19 @@ fn rank_of(room: &str) -> Option<usize> {
     ROOMS.iter().position(|line| line.contains(&room))
 }
 
-/// `scene/model/mod.rs` is `scene`, `model`; `lib.rs` is the root.
-fn module_of(path: &str) -> Vec<String> {
-    let path = path.trim_end_matches(".rs").trim_end_matches("/mod");
-    if path == "lib" {
-        Vec::new()
-    } else {
-        path.split('/').map(str::to_owned).collect()
-    }
-}
-
-/// The rooms that paths in `tokens`, in the given module, name.
-fn collect(tokens: TokenStream, module: &[String], rooms: &mut Vec<String>) {
-    let tokens: Vec<TokenTree> = tokens.into_iter().collect();
-    let word = |i: usize| match tokens.get(i) {
-        Some(TokenTree::Ident(word)) => Some(word.to_string()),
-        _ => None,
-    };
-    let mut i = 0;
-    while i < tokens.len() {
-        match (&tokens[i], word(i).as_deref()) {
-            (TokenTree::Group(group), _) => collect(group.stream(), module, rooms),
-            (_, Some("mod")) => {
-                if let (Some(name), Some(TokenTree::Group(body))) = (word(i + 1), tokens.get(i + 2))
-                {
-                    let inner = [module, &[name]].concat();
-                    collect(body.stream(), &inner, rooms);
-                    i += 2;
-                }
-            }
-            (_, Some("crate" | "restframe")) if !follows_colons(&tokens, i) => {
-                follow(&tokens[i + 1..], &[], rooms);
-            }
-            (_, Some("super")) if !follows_colons(&tokens, i) => {
-                follow(
-                    &tokens[i + 1..],
-                    module.split_last().map_or(&[], |(_, up)| up),
-                    rooms,
-                );
-            }
-            _ => {}
-        }
-        i += 1;
-    }
-}
-
-fn is_colon(token: Option<&TokenTree>) -> bool {
-    matches!(token, Some(TokenTree::Punct(mark)) if mark.as_char() == ':')
-}
-
-/// Whether `::` stands before token `i`, which is then no beginning of a path.
-fn follows_colons(tokens: &[TokenTree], i: usize) -> bool {
-    i >= 2 && is_colon(tokens.get(i - 1)) && is_colon(tokens.get(i - 2))
-}
-
-/// Follows the rest of a path, which begins with `::` and stands in the module `at`, until the
-/// rooms are known that it leads to: through braces, and further up through `super`.
-fn follow(rest: &[TokenTree], at: &[String], rooms: &mut Vec<String>) {
-    if !(is_colon(rest.first()) && is_colon(rest.get(1))) {
-        return;
-    }
-    match rest.get(2) {
-        Some(TokenTree::Group(group)) if group.delimiter() == Delimiter::Brace => {
-            let tokens: Vec<TokenTree> = group.stream().into_iter().collect();
-            let comma = |t: &TokenTree| matches!(t, TokenTree::Punct(p) if p.as_char() == ',');
-            tokens.split(comma).for_each(|part| step(part, at, rooms));
-        }
-        Some(_) => step(&rest[2..], at, rooms),
-        None => {}
-    }
-}
-
-fn step(path: &[TokenTree], at: &[String], rooms: &mut Vec<String>) {
-    let Some(TokenTree::Ident(word)) = path.first() else {
-        return;
-    };
-    match (word.to_string().as_str(), at.first()) {
-        ("super", Some(_)) => follow(&path[1..], &at[..at.len() - 1], rooms),
-        (_, Some(_)) | ("self", None) => {}
-        (room, None) => rooms.push(room.to_owned()),
-    }
+/// Whether a file has no items but modules without a body, imports, constants and attributes.
+fn only_declares(tokens: &TokenStream) -> bool {
+    const ITEMS: [&str; 7] = [
+        "fn",
+        "struct",
+        "enum",
+        "impl",
+        "trait",
+        "static",
+        "macro_rules",
+    ];
+    let is_item = |token: &TokenTree| matches!(token, TokenTree::Ident(word) if ITEMS.iter().any(|item| word == item));
+    !tokens.clone().into_iter().any(|token| is_item(&token))
 }
 
 /// All sources below a folder.
@@ -335,4 +281,45 @@ fn an_exception_that_nothing_needs_any_more_is_found() {
         faults(&short),
         ["color/tables.rs: no longer a long file; take it off the list"]
     );
+}
+
+#[test]
+fn a_circle_between_two_files_of_a_room_is_found_also_by_way_of_its_door() {
+    let file = |path: &str, text: &str| (path.to_owned(), format!("//! A file.\n{text}"));
+    let door = file(
+        "trace/mod.rs",
+        "mod a;\nmod b;\npub use a::A;\npub use b::B;",
+    );
+    let circle = "trace/a, trace/b import each other".to_owned();
+    for (a, b) in [
+        (
+            "use super::B; pub struct A;",
+            "use super::a::A; pub struct B;",
+        ),
+        (
+            "use crate::trace::b::B; pub struct A;",
+            "fn f(_: super::A) {} pub struct B;",
+        ),
+    ] {
+        let files = [door.clone(), file("trace/a.rs", a), file("trace/b.rs", b)];
+        assert!(faults(&files).contains(&circle), "{a} {b}");
+    }
+    let tests = "pub struct B; #[cfg(test)] mod tests { use crate::trace::A; }";
+    let one_way = [
+        door,
+        file("trace/a.rs", "use super::B;"),
+        file("trace/b.rs", tests),
+    ];
+    assert!(!faults(&one_way).contains(&circle));
+}
+
+#[test]
+fn a_door_with_items_of_its_own_is_found() {
+    let expected = "trace/mod.rs: holds items of its own; it should declare and re-export alone";
+    for text in ["mod a;\npub fn f() {}", "pub struct S;", "impl S {}"] {
+        let found = faults_of("trace/mod.rs", &format!("//! A room.\n{text}"));
+        assert_eq!(found, [expected], "{text}");
+    }
+    let door = "//! A room.\nmod a;\npub use a::{A, B};\npub(crate) const N: u32 = 1;";
+    assert_eq!(faults_of("trace/mod.rs", door), [""; 0]);
 }

@@ -1,12 +1,10 @@
 //! Frames of one sequence: each is the same picture alone and after its neighbours.
 use restframe::progress::{Event, FrameOutcome, Progress};
-use restframe::queue::{Force, Output, RenderedFrame, Run, Settings};
+use restframe::queue::{Force, Output, RenderedFrame, Run, RunError, Settings, Stop};
 use restframe::store::Request;
-use std::cell::RefCell;
 use std::fs;
 use std::path::Path;
 use std::sync::Mutex;
-use std::sync::atomic::AtomicBool;
 
 const QUAD: &str = "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nusemtl red\nf 1 2 3 4\n";
 
@@ -38,7 +36,7 @@ exposure = 0
 
 fn render(shot: &Path, frames: &str, out: &Path) {
     let shot = restframe::shot::load(shot).unwrap();
-    let (progress, stop) = (Progress::silent(), AtomicBool::new(false));
+    let (progress, stop) = (Progress::silent(), Stop::default());
     let settings = Settings {
         request: Request {
             out: out.to_owned(),
@@ -91,6 +89,69 @@ fn a_frame_alone_is_the_frame_in_its_sequence_also_where_materials_come_to_look_
     }
 }
 
+/// They stand in the folder that the request names: a run to memory does not look there.
+#[test]
+fn a_run_to_memory_renders_frames_that_are_finished_on_the_disk() {
+    let folder = two("finished", "0.8", "0.2");
+    let shot = folder.join("two.toml");
+    let out = folder.join("out");
+    render(&shot, "1-", &out);
+    let (progress, stop) = (Progress::silent(), Stop::default());
+    let numbers = Mutex::new(Vec::new());
+    let keep = |frame: RenderedFrame| numbers.lock().unwrap().push(frame.frame);
+    let settings = Settings {
+        request: Request {
+            out,
+            ..Request::default()
+        },
+        output: Output::Memory(&keep),
+        ..Settings::new(&progress, &stop)
+    };
+    let shot = restframe::shot::load(&shot).unwrap();
+    Run::open(&[shot], settings).unwrap().render_all();
+    assert_eq!(*numbers.lock().unwrap(), [1, 2, 3]);
+}
+
+/// Nothing of them meets on a disk.
+#[test]
+fn shots_of_one_name_are_rendered_to_memory_and_refused_for_one_folder() {
+    let shots = ["one-name/a", "one-name/b"].map(|name| {
+        let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
+        fs::create_dir_all(&folder).unwrap();
+        let text = "[image]\nsize = [4, 2]\n[background]\nspectrum = 0.001\n[camera]\nposition = [0, 0, 0]\n[sensor]\nexposure = 0\n";
+        restframe::shot::parse(text, &folder.join("same.toml")).unwrap()
+    });
+    let (progress, stop) = (Progress::silent(), Stop::default());
+    let taken = Mutex::new(0);
+    let count = |_| *taken.lock().unwrap() += 1;
+    let to = |output| Settings {
+        output,
+        ..Settings::new(&progress, &stop)
+    };
+    let refused = Run::open(&shots, to(Output::Folder)).err();
+    assert!(matches!(refused, Some(RunError::Contradiction(_))));
+    let mut run = Run::open(&shots, to(Output::Memory(&count))).unwrap();
+    run.render_all();
+    assert_eq!(*taken.lock().unwrap(), 2);
+}
+
+#[test]
+fn a_run_is_refused_with_the_mistakes_of_every_shot() {
+    let folder = two("mistakes", "0.8", "0.2");
+    fs::remove_file(folder.join("left.obj")).unwrap();
+    let shot = restframe::shot::load(&folder.join("two.toml")).unwrap();
+    let (progress, stop) = (Progress::silent(), Stop::default());
+    let settings = Settings {
+        output: Output::Memory(&|_| ()),
+        ..Settings::new(&progress, &stop)
+    };
+    let refused = Run::open(&[shot.clone(), shot], settings).err();
+    let Some(RunError::Mistakes(all)) = refused else {
+        unreachable!("a model is missing: {refused:?}")
+    };
+    assert_eq!(all.len(), 2);
+}
+
 #[test]
 fn a_run_to_memory_has_the_bytes_of_one_to_a_folder_and_leaves_no_file() {
     let folder = two("memory", "0.8", "0.2");
@@ -104,9 +165,9 @@ fn a_run_to_memory_has_the_bytes_of_one_to_a_folder_and_leaves_no_file() {
             settled.lock().unwrap().push(*frame);
         }
     });
-    let stop = AtomicBool::new(false);
-    let frames = RefCell::new(Vec::new());
-    let keep = |frame: RenderedFrame| frames.borrow_mut().push(frame);
+    let stop = Stop::default();
+    let frames = Mutex::new(Vec::new());
+    let keep = |frame: RenderedFrame| frames.lock().unwrap().push(frame);
     let settings = Settings {
         request: Request {
             out: unused.clone(),
@@ -119,7 +180,7 @@ fn a_run_to_memory_has_the_bytes_of_one_to_a_folder_and_leaves_no_file() {
     let mut run = Run::open(&[shot], settings).unwrap();
     assert!(run.next_finished().is_some() && run.next_finished().is_none());
     assert_eq!(*settled.lock().unwrap(), [1, 2, 3]);
-    for frame in frames.borrow().iter() {
+    for frame in frames.lock().unwrap().iter() {
         let RenderedFrame { files, record, .. } = frame;
         let (extension, bytes) = &files[0];
         assert_eq!((files.len(), *extension), (1, "png"));
@@ -127,6 +188,6 @@ fn a_run_to_memory_has_the_bytes_of_one_to_a_folder_and_leaves_no_file() {
         let same = fs::read(out.join("two").join(&record.files[0].name)).unwrap() == *bytes;
         assert!(same, "frame {}", frame.frame);
     }
-    assert_eq!(frames.borrow().len(), 3);
+    assert_eq!(frames.lock().unwrap().len(), 3);
     assert!(!unused.exists());
 }

@@ -1,10 +1,11 @@
 //! `restframe render`: frames that are missing or out of date, then sequences.
 
 use super::{
-    FAILURE, Failed, ProgressMode, RenderArguments, failed, frames, mistaken, misused, pool,
+    FAILURE, Failed, MISTAKE, ProgressMode, RenderArguments, failed, frames, mistaken, misused,
+    pool,
 };
 use crate::progress::{Progress, Results};
-use crate::queue::{Force, Job, JobList, Output, Run, Settings, Stop, list_of};
+use crate::queue::{Force, Job, Output, Run, RunError, Settings, Stop, list_of};
 use crate::sequence::{finish_shot, foreseen};
 use crate::shot::{self, Shot};
 use std::sync::Arc;
@@ -49,12 +50,20 @@ fn render(arguments: &RenderArguments, progress: &Progress<'_>, stop: &Stop) -> 
         },
         output: Output::Folder,
         progress,
-        stop: stop.asked(),
+        stop,
     };
     let (shots, wrong) = load(arguments);
-    let list = open(&shots, &settings, wrong)?;
-    let unreadable = list.unreadable;
-    let mut run = Run::new(list.jobs, settings);
+    let mut run = Run::open(&shots, settings).map_err(refused)?;
+    if let Some(wrong) = wrong {
+        return Err(wrong);
+    }
+    for job in run.jobs() {
+        let (shot, size) = (job.folder.shot(), job.folder.keys.resolution().size);
+        if let Some(why) = foreseen(shot, size) {
+            let path = shot.path.display();
+            progress.warn(&format!("{path}: {why}"));
+        }
+    }
     let mut finished = Ok(());
     while let Some(job) = run.next_finished() {
         finished = finish_shot(job, progress, stop).and(finished);
@@ -66,13 +75,13 @@ fn render(arguments: &RenderArguments, progress: &Progress<'_>, stop: &Stop) -> 
         progress.error(&missing);
         return Err(Failed(FAILURE));
     }
-    match unreadable {
-        0 => finished.map_err(|_| Failed(FAILURE)),
+    match run.unreadable() {
+        [] => finished.map_err(|_| Failed(FAILURE)),
         _ => Err(Failed(FAILURE)),
     }
 }
 
-/// The shots that can be read, and the failure if some cannot. Reasons are printed.
+/// The shots that can be read, and the failure if some cannot, which has been printed.
 fn load(arguments: &RenderArguments) -> (Vec<Shot>, Option<Failed>) {
     let mut wrong = None;
     let shots = arguments.shots.iter().filter_map(|path| {
@@ -83,26 +92,15 @@ fn load(arguments: &RenderArguments) -> (Vec<Shot>, Option<Failed>) {
     (shots.collect(), wrong)
 }
 
-/// The jobs of the shots. Every mistake of every shot is printed.
-fn open(
-    shots: &[Shot],
-    settings: &Settings<'_>,
-    mut wrong: Option<Failed>,
-) -> Result<JobList, Failed> {
-    let list = JobList::open(shots, settings);
-    let mut list = list.map_err(|error| misused(&error.to_string()))?;
-    for job in &list.jobs {
-        let (shot, size) = (job.folder.shot(), job.folder.keys.resolution().size);
-        if let Some(why) = foreseen(shot, size) {
-            let path = shot.path.display();
-            settings.progress.warn(&format!("{path}: {why}"));
+/// Prints why a run is not begun: every mistake of every shot.
+fn refused(error: RunError) -> Failed {
+    match error {
+        RunError::Contradiction(error) => misused(&error.to_string()),
+        RunError::Mistakes(all) => {
+            all.iter().for_each(|mistakes| drop(mistaken(mistakes)));
+            Failed(MISTAKE)
         }
     }
-    list.prepare(settings);
-    for mistakes in &list.mistakes {
-        wrong = Some(mistaken(mistakes));
-    }
-    wrong.map_or(Ok(list), Err)
 }
 
 /// The frames that are missing, in words.

@@ -9,7 +9,7 @@
 //! rounded to 1, 2 or 5. Curves are read as their author wrote them, however `accuracy.spectra` holds
 //! them for the picture.
 
-use super::look;
+use super::pixel::look;
 use super::plot::{SPACING, SURFACE, THERMAL_LIGHT, UNIT, curve, digits, peak, visible};
 use crate::accel::Aggregate;
 use crate::color::cie;

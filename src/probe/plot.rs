@@ -1,7 +1,8 @@
 //! Plot of a pixel's curves: in the sensor's window, and over a band wide enough for all light that
 //! is shifted into or out of it.
 
-use super::{Probe, look};
+use super::Probe;
+use super::pixel::look;
 use crate::color::cie::{RANGE_NM, xyz_bar};
 use crate::color::spaces::{RGB_FROM_XYZ, apply, encode};
 use crate::frame::Frame;

@@ -3,7 +3,7 @@
 use super::batch::FrameTask;
 use super::cost::{Costs, active_names};
 use super::memory::check_memory;
-use super::settings::{Force, Output};
+use super::settings::{Force, Output, Settings};
 use super::shard::Shard;
 use crate::accel::Aggregate;
 use crate::frame::{FrameFingerprint, TraceKey};
@@ -46,7 +46,7 @@ impl Job {
     ///
     /// # Errors
     /// A folder that cannot be read.
-    pub fn new(
+    pub(super) fn new(
         mut folder: ShotFolder,
         frames: Vec<u32>,
         output: Output<'_>,
@@ -104,7 +104,7 @@ impl Job {
     ///
     /// # Errors
     /// All its mistakes.
-    pub fn prepare(&mut self, force: Force) -> Result<(), Mistakes> {
+    pub(super) fn prepare(&mut self, force: Force) -> Result<(), Mistakes> {
         let wanted = self.tasks.iter().filter(|task| is_wanted(task, force));
         let frames: Vec<u32> = wanted.map(|task| task.frame).collect();
         if !frames.is_empty() {
@@ -112,11 +112,6 @@ impl Job {
             self.prepared = Some(Prepared::new(shot, frames.into_iter())?);
         }
         Ok(())
-    }
-
-    /// The shot with what it reads from other files, if they have been read.
-    pub fn prepared(&self) -> Option<&Prepared> {
-        self.prepared.as_ref()
     }
 
     /// Size, samples and layers of its images.
@@ -169,11 +164,19 @@ impl Job {
     }
 
     /// The tasks of number `job` of the run: first those to be rendered, then frames to be kept.
-    pub(super) fn take_tasks(&mut self, job: usize, force: Force) -> (Vec<FrameTask>, Vec<u32>) {
+    pub(super) fn take_tasks(
+        &mut self,
+        job: usize,
+        settings: &Settings<'_>,
+    ) -> (Vec<FrameTask>, Vec<u32>) {
         let (mut wanted, kept): (Vec<_>, Vec<_>) = std::mem::take(&mut self.tasks)
             .into_iter()
-            .partition(|task| is_wanted(task, force));
-        let costs: Vec<f64> = self.costs(&wanted).collect();
+            .partition(|task| is_wanted(task, settings.force));
+        let costs = match settings.output.is_folder() {
+            true => Costs::new(&self.folder),
+            false => Costs::default(),
+        };
+        let costs: Vec<f64> = self.costs(&wanted, costs).collect();
         for (task, work) in wanted.iter_mut().zip(costs) {
             (task.job, task.work) = (job, work);
         }
@@ -194,8 +197,7 @@ impl Job {
     }
 
     /// Seconds that each task is expected to take, of a shared trace its part.
-    fn costs(&self, tasks: &[FrameTask]) -> impl Iterator<Item = f64> {
-        let costs = Costs::new(&self.folder);
+    fn costs(&self, tasks: &[FrameTask], costs: Costs) -> impl Iterator<Item = f64> {
         let mut sharing: HashMap<TraceKey, f64> = HashMap::new();
         for task in tasks {
             *sharing.entry(task.trace).or_default() += 1.0;

@@ -1,21 +1,22 @@
 //! The jobs of a run: shots opened, frames chosen, and everything that is wrong with them.
 
-use super::frames::Resolved;
+use super::frames::FrameList;
 use super::job::{Job, choose_shard};
 use super::settings::Settings;
+use crate::progress::Progress;
 use crate::shot::{Mistakes, Shot};
-use crate::store::{Names, ShotFolder};
+use crate::store::{FolderError, Names, Request, ShotFolder};
 use std::collections::HashMap;
 
 /// The jobs of a run, and what was wrong with the others.
 #[derive(Default)]
-pub struct JobList {
+pub(super) struct JobList {
     /// Those that can be rendered, in the order of the shots.
-    pub jobs: Vec<Job>,
+    pub(super) jobs: Vec<Job>,
     /// Mistakes of shots, in the order in which they were found. A run is not begun with any.
-    pub mistakes: Vec<Mistakes>,
-    /// How many shots have a folder that cannot be read; why, was reported.
-    pub unreadable: usize,
+    pub(super) mistakes: Vec<Mistakes>,
+    /// Folders that cannot be read; each was reported.
+    pub(super) unreadable: Vec<FolderError>,
 }
 
 /// A run that contradicts itself or its shots: nothing of it is begun.
@@ -24,15 +25,19 @@ pub struct JobList {
 pub struct Contradiction(String);
 
 impl JobList {
-    /// Opens the jobs of some shots. Warns of frames that a shot does not have.
+    /// Opens the jobs of some shots, reads what they name, where a frame is to be rendered, and warns
+    /// of frames that a shot does not have and of what pictures will not show.
     ///
     /// # Errors
     /// Two shots that would write the same files, a size that is too large, a shot of which no frame
     /// is chosen.
-    pub fn open(shots: &[Shot], settings: &Settings<'_>) -> Result<Self, Contradiction> {
-        let progress = settings.progress;
-        refuse_same_folder(shots)?;
-        let chosen = shots.iter().map(|shot| choose(shot, settings));
+    pub(super) fn open(shots: &[Shot], settings: &Settings<'_>) -> Result<Self, Contradiction> {
+        let Settings { progress, .. } = *settings;
+        if settings.output.is_folder() {
+            refuse_same_folder(shots)?;
+        }
+        let choose = |shot| choose(shot, &settings.request, &settings.frames, progress);
+        let chosen = shots.iter().map(choose);
         let chosen = chosen.collect::<Result<Vec<_>, _>>()?;
         let mut list = Self::default();
         let mut folders = Vec::new();
@@ -52,25 +57,28 @@ impl JobList {
             }
         }
         for (folder, frames) in folders {
-            let path = folder.shot().path.display().to_string();
-            match Job::new(folder, frames, settings.output) {
-                Ok(job) => list.jobs.push(job),
-                Err(error) => {
-                    progress.error(&format!("{path}: {error}"));
-                    list.unreadable += 1;
-                }
-            }
+            list.add(folder, frames, settings);
         }
+        list.prepare(settings);
         Ok(list)
     }
 
-    /// Reads what the shots name, where a frame is to be rendered, and warns of what their pictures
-    /// will not show. Mistakes are added to the list.
-    pub fn prepare(&mut self, settings: &Settings<'_>) {
+    fn add(&mut self, folder: ShotFolder, frames: Vec<u32>, settings: &Settings<'_>) {
+        let path = folder.shot().path.display().to_string();
+        match Job::new(folder, frames, settings.output) {
+            Ok(job) => self.jobs.push(job),
+            Err(error) => {
+                settings.progress.error(&format!("{path}: {error}"));
+                self.unreadable.push(error);
+            }
+        }
+    }
+
+    fn prepare(&mut self, settings: &Settings<'_>) {
         for job in &mut self.jobs {
             self.mistakes.extend(job.prepare(settings.force).err());
         }
-        let prepared = self.jobs.iter().filter_map(Job::prepared);
+        let prepared = self.jobs.iter().filter_map(|job| job.prepared.as_ref());
         for warning in prepared.flat_map(|prepared| prepared.warnings()) {
             settings.progress.warn(&warning);
         }
@@ -91,24 +99,30 @@ fn refuse_same_folder(shots: &[Shot]) -> Result<(), Contradiction> {
     Ok(())
 }
 
-/// The frames asked for that a shot has.
-fn choose(shot: &Shot, settings: &Settings<'_>) -> Result<Vec<u32>, Contradiction> {
+/// The frames asked for that a shot has, at least one. Warns of others.
+///
+/// # Errors
+/// A size that is too large, a list that has none of the shot's frames.
+pub(super) fn choose(
+    shot: &Shot,
+    request: &Request,
+    list: &FrameList,
+    progress: &Progress<'_>,
+) -> Result<Vec<u32>, Contradiction> {
     let frames = shot.shot.frames;
     let path = shot.path.display();
-    let Resolved {
-        frames: chosen,
-        outside,
-    } = settings.frames.resolve(frames);
-    settings.request.check(shot).map_err(Contradiction)?;
-    if chosen.is_empty() {
+    let chosen = list.resolve(frames);
+    request.check(shot).map_err(Contradiction)?;
+    if chosen.frames.is_empty() {
         return Err(Contradiction(format!(
             "{path} has frames 1 to {frames}; none was chosen"
         )));
     }
-    if outside > 0 {
-        settings.progress.warn(&format!(
+    if chosen.outside > 0 {
+        let outside = chosen.outside;
+        progress.warn(&format!(
             "{path} has frames 1 to {frames}; {outside} others are left out"
         ));
     }
-    Ok(chosen)
+    Ok(chosen.frames)
 }

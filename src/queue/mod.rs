@@ -26,7 +26,7 @@ pub use cost::{Costs, Estimate, frame_bytes, memory_bytes};
 pub use forecast::{Forecast, FrameForecast, Totals};
 pub use frames::{FrameList, FrameListError, Resolved, list_of};
 pub use job::Job;
-pub use jobs::{Contradiction, JobList};
+pub use jobs::Contradiction;
 pub use memory::{TooLarge, most_together};
 pub use run::{Run, RunError};
 pub use settings::{Force, Output, RenderedFrame, Settings};

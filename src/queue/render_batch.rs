@@ -1,24 +1,17 @@
-//! A batch of frames, from scenes to films: what is traced of them is traced here.
+//! A batch of frames, from scenes to films.
 
 use super::batch::ClaimedFrame;
 use super::job::Job;
 use super::memory::{TooLarge, check_memory};
 use super::settings::Settings;
 use crate::accel::Aggregate;
-use crate::film::{Film, SILENT};
 use crate::frame::Frame;
-use crate::plot::Plot;
-use crate::probe;
 use crate::progress::Progress;
-use crate::render::{
-    Exposing, Member, Prepared, Stopped, Together, Watch, left_out_warning, render_together,
-};
+use crate::render::{Exposing, Member, Prepared, Stopped, Together, Watch, render_together};
 use crate::scene::Scene;
 use crate::shot::Mistakes;
 use crate::trace::build_aggregate;
-use rayon::prelude::*;
 use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 
 /// A batch that has been rendered.
@@ -29,18 +22,6 @@ pub(super) struct RenderedBatch {
     pub(super) scenes: Vec<Scene>,
     pub(super) stage: Aggregate,
     pub(super) together: Together,
-    /// What pictures show beside the films, one for each frame; None where the run was stopped
-    /// before.
-    pub(super) probed: Vec<Option<Probed>>,
-}
-
-/// What the picture of a frame shows beside its film, looked up in the same scene and trees.
-#[derive(Default)]
-pub(super) struct Probed {
-    /// Plots of its insets.
-    pub(super) insets: Vec<Option<Plot>>,
-    /// How much of its light was not followed, if that is much.
-    pub(super) left_out: Option<String>,
 }
 
 /// Why a batch gave no films.
@@ -89,45 +70,16 @@ pub(super) fn render(
     let work_per_ray = work / (rays * batch.len() as f64);
     let watch = Watch {
         done: &|rays| settings.progress.advance(rays as f64 * work_per_ray),
-        stop: settings.stop,
+        stop: settings.stop.asked(),
     };
     let rendered = render_together(&members, &stage, options, watch);
     let mut together = rendered.map_err(|Stopped| Unrendered::Stopped)?;
     together.prepare += prepare;
-    let begun = Instant::now();
-    let stop = settings.stop;
-    let films = batch.par_iter().zip(&members).zip(&together.films);
-    let probed = films.map(|((claimed, member), film)| {
-        let exposure = stops(&jobs[claimed.task.job], member.frame);
-        probe(*member, &stage, film, exposure, stop)
-    });
-    let probed = probed.collect();
-    together.shade += begun.elapsed().as_secs_f64();
     Ok(RenderedBatch {
-        probed,
         first,
         scenes,
         stage,
         together,
-    })
-}
-
-/// Looks up what a picture shows beside its film; None if that takes time and the run is stopped.
-fn probe(
-    member: Member<'_>,
-    stage: &Aggregate,
-    film: &Film,
-    exposure: f64,
-    stop: &AtomicBool,
-) -> Option<Probed> {
-    let is_quick = member.frame.insets.is_empty() && film.left_out.share() <= SILENT;
-    if !is_quick && stop.load(Ordering::Relaxed) {
-        return None;
-    }
-    let size = [film.width, film.height];
-    Some(Probed {
-        insets: probe::insets(member, stage, exposure, size),
-        left_out: left_out_warning(member, stage, film),
     })
 }
 

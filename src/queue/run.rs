@@ -9,7 +9,7 @@ use super::settings::{Force, Settings};
 use super::write_batch::write;
 use crate::progress::FrameOutcome;
 use crate::shot::{Mistakes, Shot};
-use crate::store::{Claim, sweep};
+use crate::store::{Claim, FolderError, sweep};
 use std::collections::VecDeque;
 use std::thread::sleep;
 use std::time::Duration;
@@ -20,10 +20,9 @@ use std::time::Duration;
 /// A shot rendered to memory:
 /// ```
 /// use restframe::progress::Progress;
-/// use restframe::queue::{Output, Run, Settings};
-/// use std::cell::RefCell;
+/// use restframe::queue::{Output, Run, Settings, Stop};
 /// use std::path::Path;
-/// use std::sync::atomic::AtomicBool;
+/// use std::sync::Mutex;
 ///
 /// // A ball in front of a gray background, seen by a camera at rest.
 /// let text = r#"
@@ -39,9 +38,9 @@ use std::time::Duration;
 /// exposure = 0
 /// "#;
 /// let shot = restframe::shot::parse(text, Path::new("grey.toml"))?;
-/// let (progress, stop) = (Progress::silent(), AtomicBool::new(false));
-/// let frames = RefCell::new(Vec::new());
-/// let keep = |frame| frames.borrow_mut().push(frame);
+/// let (progress, stop) = (Progress::silent(), Stop::default());
+/// let frames = Mutex::new(Vec::new());
+/// let keep = |frame| frames.lock().expect("no panic").push(frame);
 /// let settings = Settings {
 ///     output: Output::Memory(&keep),
 ///     ..Settings::new(&progress, &stop)
@@ -49,13 +48,15 @@ use std::time::Duration;
 /// let mut run = Run::open(&[shot], settings)?;
 /// run.render_all();
 /// assert!(run.jobs()[0].missing().is_empty());
-/// let (extension, png) = &frames.borrow()[0].files[0];
+/// let (extension, png) = &frames.into_inner()?[0].files[0];
 /// assert_eq!((*extension, &png[1..4]), ("png", &b"PNG"[..]));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub struct Run<'a> {
     jobs: Vec<Job>,
+    unreadable: Vec<FolderError>,
     settings: Settings<'a>,
+    is_begun: bool,
     batches: VecDeque<Vec<FrameTask>>,
     /// Tasks that other processes are at work on, to be looked at again.
     held: Vec<FrameTask>,
@@ -70,36 +71,45 @@ pub enum RunError {
     /// It contradicts itself or its shots.
     #[error(transparent)]
     Contradiction(#[from] Contradiction),
-    /// Mistakes in a shot: the first that has any.
-    #[error("{0}")]
-    Mistakes(Box<Mistakes>),
-    /// Folders that cannot be read; why, was reported.
-    #[error("the folders of {0} shots cannot be read")]
-    Folders(usize),
+    /// Mistakes in shots, those of each shot together.
+    #[error("{}", joined(.0))]
+    Mistakes(Vec<Mistakes>),
+}
+
+fn joined(mistakes: &[Mistakes]) -> String {
+    let reports = mistakes.iter().map(ToString::to_string);
+    reports.collect::<Vec<_>>().join("\n")
 }
 
 impl<'a> Run<'a> {
-    /// A run of some shots, opened and prepared.
+    /// A run of some shots, whose files are read where a frame is to be rendered. Nothing is written
+    /// before [`next_finished`](Self::next_finished). A folder that cannot be read keeps no other shot
+    /// from being rendered: it is reported, and one of [`unreadable`](Self::unreadable).
     ///
     /// # Errors
-    /// What is wrong with any of them: nothing is rendered then.
+    /// What is wrong with any shot: none is rendered then.
     pub fn open(shots: &[Shot], settings: Settings<'a>) -> Result<Self, RunError> {
-        let mut list = JobList::open(shots, &settings)?;
-        list.prepare(&settings);
-        if let Some(mistakes) = list.mistakes.into_iter().next() {
-            return Err(RunError::Mistakes(Box::new(mistakes)));
+        let list = JobList::open(shots, &settings)?;
+        if !list.mistakes.is_empty() {
+            return Err(RunError::Mistakes(list.mistakes));
         }
-        match list.unreadable {
-            0 => Ok(Self::new(list.jobs, settings)),
-            unreadable => Err(RunError::Folders(unreadable)),
-        }
+        Ok(Self {
+            jobs: list.jobs,
+            unreadable: list.unreadable,
+            settings,
+            is_begun: false,
+            batches: VecDeque::new(),
+            pass: usize::MAX,
+            held: Vec::new(),
+            waits: 0,
+        })
     }
 
-    /// A run of jobs that have been prepared. Makes their folders ready, and reports the frames
-    /// that are there already.
-    pub fn new(mut jobs: Vec<Job>, settings: Settings<'a>) -> Self {
-        let (progress, force) = (settings.progress, settings.force);
-        for job in &mut jobs {
+    /// Makes folders ready, and reports the frames that are there already.
+    fn begin(&mut self) {
+        let (jobs, settings) = (&mut self.jobs, &self.settings);
+        let progress = settings.progress;
+        for job in jobs.iter_mut() {
             match settings.output.is_folder() {
                 true => job.prepare_folder(settings.shard),
                 false => job.prepare_memory(),
@@ -108,7 +118,7 @@ impl<'a> Run<'a> {
         let mut tasks = Vec::new();
         let mut kept = Vec::new();
         for (number, job) in jobs.iter_mut().enumerate() {
-            let (wanted, fresh) = job.take_tasks(number, force);
+            let (wanted, fresh) = job.take_tasks(number, settings);
             tasks.extend(wanted);
             kept.push(fresh);
         }
@@ -125,14 +135,7 @@ impl<'a> Run<'a> {
                 progress.error(&format!("{path}: {why}"));
             }
         }
-        Self {
-            jobs,
-            settings,
-            batches: VecDeque::new(),
-            pass: usize::MAX,
-            held: tasks,
-            waits: 0,
-        }
+        self.held = tasks;
     }
 
     /// The jobs.
@@ -140,9 +143,17 @@ impl<'a> Run<'a> {
         &self.jobs
     }
 
+    /// Why the folders of other shots could not be read.
+    pub fn unreadable(&self) -> &[FolderError] {
+        &self.unreadable
+    }
+
     /// Renders until nothing is left to do for one more job, and returns it; each job once. None when
     /// there is no other, or when the run was stopped.
     pub fn next_finished(&mut self) -> Option<&mut Job> {
+        if !std::mem::replace(&mut self.is_begun, true) {
+            self.begin();
+        }
         loop {
             let is_finished = |job: &Job| !job.is_reported && job.is_settled();
             if let Some(number) = self.jobs.iter().position(is_finished) {
@@ -203,7 +214,8 @@ impl<'a> Run<'a> {
             match claim {
                 Ok(Some(claim)) => {
                     let key = job.folder.keys.frame(task.frame);
-                    if settings.force == Force::No && job.was_rendered_meanwhile(&task, &key) {
+                    let may_be_there = settings.output.is_folder() && settings.force == Force::No;
+                    if may_be_there && job.was_rendered_meanwhile(&task, &key) {
                         let reason = Some("rendered by another process".to_owned());
                         job.settle(&task, FrameOutcome::Kept { reason }, progress);
                     } else {

@@ -2,10 +2,10 @@
 
 use super::frames::FrameList;
 use super::shard::Shard;
+use super::signals::Stop;
 use crate::progress::Progress;
 use crate::store::{Record, Request};
 use std::path::PathBuf;
-use std::sync::atomic::{AtomicBool, Ordering};
 
 /// What a run is asked to do, where its pictures go, and who is told.
 #[derive(Clone)]
@@ -22,13 +22,13 @@ pub struct Settings<'a> {
     pub output: Output<'a>,
     /// Told of everything.
     pub progress: &'a Progress<'a>,
-    /// Once true, the work ends within two seconds.
-    pub stop: &'a AtomicBool,
+    /// Once asked to stop, the work ends within two seconds.
+    pub stop: &'a Stop,
 }
 
 impl<'a> Settings<'a> {
     /// The defaults of every setting.
-    pub fn new(progress: &'a Progress<'a>, stop: &'a AtomicBool) -> Self {
+    pub fn new(progress: &'a Progress<'a>, stop: &'a Stop) -> Self {
         Self {
             request: Request::default(),
             frames: FrameList::all(),
@@ -42,7 +42,7 @@ impl<'a> Settings<'a> {
 
     /// Whether the work is to stop.
     pub(super) fn is_stopped(&self) -> bool {
-        self.stop.load(Ordering::Relaxed)
+        self.stop.is_asked()
     }
 }
 
@@ -64,7 +64,7 @@ pub enum Output<'a> {
     Folder,
     /// To the caller, frame by frame as they are finished. Nothing is read but what shots name, and
     /// nothing is written.
-    Memory(&'a dyn Fn(RenderedFrame)),
+    Memory(&'a (dyn Fn(RenderedFrame) + Sync)),
 }
 
 impl Output<'_> {

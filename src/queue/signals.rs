@@ -7,7 +7,8 @@
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
-/// Whether this process was asked to stop.
+/// Whether work is to stop: asked by a signal to this process ([`Stop::listen`]), or by a call
+/// ([`Stop::ask`]). Clones are one.
 #[derive(Debug, Clone, Default)]
 pub struct Stop {
     asked: Arc<AtomicBool>,
@@ -27,8 +28,13 @@ impl Stop {
         Ok(stop)
     }
 
-    /// True from the first signal on.
-    pub fn asked(&self) -> &AtomicBool {
+    /// Asks the work to stop.
+    pub fn ask(&self) {
+        self.asked.store(true, Ordering::Relaxed);
+    }
+
+    /// True once it was asked to stop.
+    pub(crate) fn asked(&self) -> &AtomicBool {
         &self.asked
     }
 

@@ -1,24 +1,35 @@
-//! A batch of films, from developing to files and records.
+//! A batch of films, from what their pictures show beside them to files and records.
 
 use super::batch::{ClaimedFrame, FrameTask};
 use super::job::Job;
 use super::memory::most_developed;
 use super::record::{new_record, warnings};
-use super::render_batch::{Probed, RenderedBatch, stops};
+use super::render_batch::{RenderedBatch, stops};
 use super::settings::{Output, RenderedFrame, Settings};
-use crate::film::Film;
+use crate::accel::Aggregate;
+use crate::film::{Film, SILENT};
 use crate::frame::Frame;
 use crate::plot::Plot;
+use crate::probe;
 use crate::progress::FrameOutcome;
-use crate::render::{PictureInfo, Pictures, Together, encode};
+use crate::render::{Member, PictureInfo, Pictures, Together, encode, left_out_warning};
 use crate::scene::Scene;
 use crate::store::{FileRecord, Record, Seconds, is_full, now, twice, write_atomically};
 use rayon::prelude::*;
 use std::io;
 use std::time::{Duration, Instant};
 
-/// A frame, its scene, its film, and what its picture shows beside that.
-type Rendered<'a> = (ClaimedFrame, &'a Scene, Film, Probed);
+/// A frame, its scene and its film.
+type Rendered<'a> = (ClaimedFrame, &'a Scene, Film);
+
+/// What the picture of a frame shows beside its film, looked up in the same scene and trees.
+#[derive(Default)]
+struct Probed {
+    /// Plots of its insets.
+    insets: Vec<Option<Plot>>,
+    /// How much of its light was not followed, if that is much.
+    left_out: Option<String>,
+}
 
 /// Films to files, as many at once as threads and memory allow; a frame is settled when it is on the
 /// disk.
@@ -33,7 +44,6 @@ pub(super) fn write(
         scenes,
         stage,
         together,
-        probed,
     } = rendered;
     let Together {
         films,
@@ -43,10 +53,8 @@ pub(super) fn write(
     } = together;
     let shared = batch.len();
     let part = |seconds: f64| seconds / shared as f64;
-    let frames = batch.into_iter().zip(&scenes).zip(films).zip(probed);
-    let mut rest = frames.filter_map(|(((claimed, scene), film), probed)| {
-        probed.map(|probed| (claimed, scene, film, probed))
-    });
+    let frames = batch.into_iter().zip(&scenes).zip(films);
+    let mut rest = frames.map(|((claimed, scene), film)| (claimed, scene, film));
     let most = most_developed(jobs[first].options(), rayon::current_num_threads());
     let mut deadline = ShutdownDeadline::default();
     loop {
@@ -61,22 +69,27 @@ pub(super) fn write(
         for (claimed, ..) in lost {
             settings.progress.discard(claimed.task.work);
         }
+        let probing = Instant::now();
+        let probed = probe(jobs, &chunk, &stage, settings);
+        let probe_seconds = probing.elapsed().as_secs_f64() / chunk.len() as f64;
         let begun = Instant::now();
         let encoded: Vec<_> = chunk
             .into_par_iter()
-            .map(|(claimed, scene, film, probed)| {
-                let Probed { insets, left_out } = probed;
-                let made = encoded(&jobs[claimed.task.job], &claimed, scene, &film, &insets);
-                (claimed, made, film.left_out.share(), left_out)
+            .zip(probed)
+            .filter_map(|(rendered, probed)| Some((rendered, probed?)))
+            .map(|((claimed, scene, film), probed)| {
+                let job = &jobs[claimed.task.job];
+                let made = probed.and_then(|probed| encoded(job, &claimed, scene, &film, probed));
+                (claimed, made)
             })
             .collect();
         let encode_seconds = begun.elapsed().as_secs_f64() / encoded.len() as f64;
-        for (claimed, made, cut, left_out) in encoded {
+        for (claimed, made) in encoded {
             let job = &mut jobs[claimed.task.job];
             let seconds = Seconds {
                 prepare: part(prepare),
                 trace: part(trace),
-                shade: part(shade),
+                shade: part(shade) + probe_seconds,
                 encode: encode_seconds,
                 write: 0.0,
             };
@@ -84,8 +97,6 @@ pub(super) fn write(
                 _ if job.halted.is_some() => settings.progress.discard(claimed.task.work),
                 Ok((made, record)) => {
                     let record = Record {
-                        warnings: warnings(&made, left_out),
-                        cut,
                         seconds,
                         shared: u32::try_from(shared).unwrap_or(u32::MAX),
                         ..record
@@ -97,13 +108,45 @@ pub(super) fn write(
             // Only now may another process look at the frame.
             drop(claimed.claim);
         }
-        deadline.last = begun.elapsed();
+        deadline.last = probing.elapsed();
     }
     drop(rest);
     jobs[first].kept = scenes.into_iter().next().map(|scene| (scene, stage));
 }
 
-/// A film as files, and their record but for its files, times and warnings.
+/// Looks up what pictures show beside their films, of as many frames as are about to be encoded; None
+/// of one of which that takes time, when the run is stopped.
+fn probe(
+    jobs: &[Job],
+    chunk: &[Rendered<'_>],
+    stage: &Aggregate,
+    settings: &Settings<'_>,
+) -> Vec<Option<Result<Probed, String>>> {
+    let probed = chunk.par_iter().map(|(claimed, scene, film)| {
+        let job = &jobs[claimed.task.job];
+        let shot = job.folder.shot();
+        if shot.inset.is_empty() && film.left_out.share() <= SILENT {
+            return Some(Ok(Probed::default()));
+        }
+        if settings.is_stopped() {
+            return None;
+        }
+        let frame = match Frame::new(shot, claimed.task.frame) {
+            Ok(frame) => frame,
+            Err(mistakes) => return Some(Err(mistakes.to_string())),
+        };
+        let frame = &frame;
+        let member = Member { frame, scene };
+        let size = [film.width, film.height];
+        Some(Ok(Probed {
+            insets: probe::insets(member, stage, stops(job, frame), size),
+            left_out: left_out_warning(member, stage, film),
+        }))
+    });
+    probed.collect()
+}
+
+/// A film as files, and their record but for its files and times.
 ///
 /// # Errors
 /// When an encoder refuses.
@@ -112,16 +155,22 @@ fn encoded(
     claimed: &ClaimedFrame,
     scene: &Scene,
     film: &Film,
-    insets: &[Option<Plot>],
+    probed: Probed,
 ) -> Result<(Pictures, Record), String> {
+    let Probed { insets, left_out } = probed;
     let frame = Frame::new(job.folder.shot(), claimed.task.frame).map_err(|m| m.to_string())?;
     let info = PictureInfo {
         exposure_stops: stops(job, &frame),
         samples: job.options().samples,
         fingerprint: Some(&claimed.key.fingerprint),
     };
-    let made = encode(&frame, scene, film, insets, info).map_err(|error| error.to_string())?;
-    Ok((made, new_record(job, &frame, &claimed.key)))
+    let made = encode(&frame, scene, film, &insets, info).map_err(|error| error.to_string())?;
+    let record = Record {
+        warnings: warnings(&made, left_out),
+        cut: film.left_out.share(),
+        ..new_record(job, &frame, &claimed.key)
+    };
+    Ok((made, record))
 }
 
 /// The files of a frame to where they go, then its record.

@@ -5,15 +5,11 @@ use super::band::{BAND, bands};
 use super::paint::{Painter, Row};
 use super::profile::Lap;
 use super::view::{View, Views};
-use super::{Options, Profile, Watch};
+use super::watch::{Stopped, Watch};
+use super::{Options, Profile};
 use crate::film::{Film, LeftOut};
 use crate::trace::Samples;
 use rayon::prelude::*;
-
-/// Rendering was asked to stop.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
-#[error("stopped")]
-pub struct Stopped;
 
 /// What of the time went into what: the shares add up to 1.
 pub(super) struct Shares {

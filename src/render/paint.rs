@@ -1,10 +1,10 @@
 //! Pixels: rays traced, shaded and averaged, a piece of a row at a time.
 
 use super::band::Part;
-use super::expose::Stopped;
 use super::left_out::light;
 use super::profile::Lap;
-use super::{LabPath, Options, View, Watch};
+use super::watch::{Stopped, Watch};
+use super::{LabPath, Options, View};
 use crate::shade::ShadeScratch;
 use crate::shot::Layer;
 use crate::trace::{Node, Samples, Scratch, Seen, ShadeTrees, Tracer};

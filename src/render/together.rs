@@ -1,9 +1,10 @@
 //! Several images at once: those that share shade trees are traced once and shaded separately.
 
 use super::band::empty_film;
-use super::expose::{Stopped, expose};
+use super::expose::expose;
 use super::profile::Profile;
 use super::view::{RelativeMotions, Views};
+use super::watch::{Member, Stopped, Watch};
 use super::{Options, channels};
 use crate::accel::Aggregate;
 use crate::film::Film;
@@ -18,24 +19,6 @@ use std::time::Instant;
 /// dozen lamps and materials, 100 MB for as many as are tabulated. If more is needed, the trace is
 /// repeated.
 const SHADERS: usize = 256 << 20;
-
-/// One of the images that share a trace. They may be of different shots.
-#[derive(Clone, Copy)]
-pub struct Member<'a> {
-    /// The frame.
-    pub frame: &'a Frame<'a>,
-    /// Its scene: as the other members', but for what shading alone reads.
-    pub scene: &'a Scene,
-}
-
-/// Observer of the work: receives progress, and can stop it.
-#[derive(Clone, Copy)]
-pub struct Watch<'a> {
-    /// Called with the number of finished rays, each counted once for every image, from any thread.
-    pub done: &'a (dyn Fn(u64) + Sync),
-    /// If it becomes true, the work ends within milliseconds.
-    pub stop: &'a AtomicBool,
-}
 
 /// Images rendered together, and the time that they took.
 #[derive(Debug, Default)]
@@ -67,8 +50,33 @@ pub fn render_together(
     render_all(members, stage, options, watch, None)
 }
 
+/// Renders one image. `done` is told of finished rays, from any thread.
+pub fn render(
+    frame: &Frame<'_>,
+    scene: &Scene,
+    stage: &Aggregate,
+    options: &Options,
+    done: &(dyn Fn(u64) + Sync),
+) -> Film {
+    let member = Member { frame, scene };
+    render_one(member, stage, options, done, None)
+}
+
+/// [`render`], with its seconds counted in `profile` if there is one, which takes a little longer.
+pub fn render_profiled(
+    frame: &Frame<'_>,
+    scene: &Scene,
+    stage: &Aggregate,
+    options: &Options,
+    done: &(dyn Fn(u64) + Sync),
+    profile: Option<&Profile>,
+) -> Film {
+    let member = Member { frame, scene };
+    render_one(member, stage, options, done, profile)
+}
+
 /// Renders one image.
-pub(super) fn render_one(
+fn render_one(
     member: Member<'_>,
     stage: &Aggregate,
     options: &Options,

@@ -1,9 +1,10 @@
 //! Files that are either whole or absent, however the run ends.
 //!
-//! A temporary file in the same folder, `NAME.XXXXXX.tmp`, is written, flushed to the disk and renamed
+//! A temporary file in the same folder, `NAME.restframe-XXXXXX.tmp`, is written, flushed to the disk and renamed
 //! over its target; then the folder is flushed. It is removed when it is dropped before that. A killed
 //! run can leave the temporary file, never a torn target; [`sweep`](super::sweep) removes it.
 
+use super::names::MARK;
 use super::write_error::{explain, folder_of};
 use std::cell::RefCell;
 use std::fs::{File, OpenOptions};
@@ -120,6 +121,7 @@ fn temporary(target: &Path) -> io::Result<NamedTempFile> {
         .ok_or(ErrorKind::InvalidFilename)?
         .to_owned();
     prefix.push(".");
+    prefix.push(MARK);
     // With the permissions of any new file, unlike those of `tempfile_in`.
     let create = |path: &Path| OpenOptions::new().write(true).create_new(true).open(path);
     let mut builder = Builder::new();
@@ -248,6 +250,24 @@ mod tests {
         let error = write_atomically(&path, b"x").expect_err("a folder is there");
         assert!(error.to_string().contains("move it away"), "{error}");
         assert_eq!(names(folder.path()), ["plate.png"]);
+    }
+
+    /// Whoever sweeps while a folder is tried does not make it seem unwritable.
+    #[test]
+    fn what_another_process_has_swept_is_removed_as_well() {
+        let folder = tempfile::tempdir().expect("scratch folder");
+        let path = folder.path().join("plate.0001.png");
+        let swept = || {
+            let file = AtomicFile::create(&path).expect("writable");
+            fs::remove_file(file.temporary()).expect("there");
+            file
+        };
+        drop(swept());
+        check_writable(&path).expect("writable");
+        // To be written once more: the frame's claim should have kept the sweeper away.
+        let error = swept().keep().expect_err("there is nothing to rename");
+        assert_eq!(error.kind(), ErrorKind::NotFound);
+        assert_eq!(names(folder.path()), [""; 0]);
     }
 
     #[test]

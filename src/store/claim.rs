@@ -281,23 +281,48 @@ mod tests {
     }
 
     #[test]
+    fn what_is_being_written_is_swept_once_its_writer_is_gone() {
+        use super::super::AtomicFile;
+        let folder = tempfile::tempdir().expect("scratch folder");
+        for target in ["rows.0001.png", "rows.sheet.png", "index.html"] {
+            let file = AtomicFile::create(&folder.path().join(target)).expect("writable");
+            // As if the process were killed here.
+            std::mem::forget(file);
+        }
+        assert_eq!(file_names(folder.path()).len(), 3);
+        sweep(folder.path(), &names());
+        assert_eq!(file_names(folder.path()), [""; 0]);
+    }
+
+    #[test]
     fn sweeping_takes_what_nobody_works_on_and_nothing_else() {
         let folder = tempfile::tempdir().expect("scratch folder");
         let names = names();
-        for name in [
-            "rows.0001.png.aaaaa0.tmp",
-            "rows.0002.png.aaaaa1.tmp",
-            "rows.gif.aaaaa2.tmp",
+        let swept = [
+            "rows.0001.png.restframe-aaaaa0.tmp",
+            "rows.gif.restframe-aB3xY9.tmp",
+            "rows.av1.mp4.restframe-aB3xY9.tmp",
+            "index.html.restframe-aaaaa3.tmp",
+            // By earlier versions.
+            "rows.0001.png.77-0.tmp",
+            "rows.0004.exr.77-12.tmp",
+            "index.html.77-3.tmp",
             "rows.gif.aB3xY9.tmp",
-            "rows.av1.mp4.aB3xY9.tmp",
-            "index.html.aaaaa3.tmp",
-            "other.0001.png.aaaaa4.tmp",
+        ];
+        let kept = [
+            "index.html.backup.tmp",
+            "other.0001.png.restframe-aaaaa4.tmp",
+            "rows.0001.png.backup.tmp",
+            "rows.0002.png.77-1.tmp",
+            "rows.0002.png.restframe-aaaaa1.tmp",
             "rows.0003.png",
-            "rows.notes.tmp",
-            "rows.gif.old.tmp",
+            "rows.0003.png.restframe-copy.tmp",
             "rows.0003.tmp",
-            "rows.notes.aB3xY9.tmp",
-        ] {
+            "rows.gif.old.tmp",
+            "rows.notes.restframe-aB3xY9.tmp",
+            "rows.notes.tmp",
+        ];
+        for name in swept.iter().chain(&kept) {
             fs::write(folder.path().join(name), b"x").expect("writable");
         }
         let held = Claim::frame(folder.path(), &names, 2).expect("lockable");
@@ -305,15 +330,6 @@ mod tests {
         drop(held);
         let mut left = file_names(folder.path());
         left.sort();
-        let kept = [
-            "other.0001.png.aaaaa4.tmp",
-            "rows.0002.png.aaaaa1.tmp",
-            "rows.0003.png",
-            "rows.0003.tmp",
-            "rows.gif.old.tmp",
-            "rows.notes.aB3xY9.tmp",
-            "rows.notes.tmp",
-        ];
         assert_eq!(left, kept);
     }
 }

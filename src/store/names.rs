@@ -11,6 +11,10 @@ pub const ASSEMBLED: [&str; 5] = ["sheet.png", "gif", "apng", "mp4", "av1.mp4"];
 /// Name of the overview of a shot's frames.
 pub const PAGE: &str = "index.html";
 
+/// What the mark of a temporary file begins with, between the target's name and six random letters
+/// and digits: no file of a user's is called so.
+pub(super) const MARK: &str = "restframe-";
+
 /// The names of one shot's files, all in one folder.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Names {
@@ -58,23 +62,26 @@ impl Names {
         format!(".{}.locks", self.stem)
     }
 
-    /// Of a temporary file ([`AtomicFile`](super::AtomicFile)): the name of the claim under which it
-    /// is written. None if it is no such file of this shot.
+    /// Of a temporary file ([`AtomicFile`](super::AtomicFile)), by this version or an earlier one: the
+    /// name of the claim under which it is written. None if it is no such file of this shot.
     pub fn claim_of_temporary(&self, name: &str) -> Option<String> {
         let (target, mark) = name.strip_suffix(".tmp")?.rsplit_once('.')?;
-        if !is_random(mark) {
-            return None;
-        }
-        if target == PAGE {
-            return Some(SEQUENCE.to_owned());
-        }
-        let suffix = target.strip_prefix(&self.stem)?.strip_prefix('.')?;
+        let is_own = mark.strip_prefix(MARK).is_some_and(is_random);
+        let suffix = target.strip_prefix(&self.stem);
+        let suffix = suffix.and_then(|suffix| suffix.strip_prefix('.'));
         if self.frame_of(target).is_some() {
-            let number = suffix.split('.').next()?;
-            return Some(number.to_owned());
+            let number = suffix?.split('.').next()?;
+            let ours = is_own || is_process_and_serial(mark);
+            return ours.then(|| number.to_owned());
         }
-        let is_assembled = ASSEMBLED.contains(&suffix);
-        is_assembled.then(|| SEQUENCE.to_owned())
+        let ours = match target == PAGE {
+            true => is_own || is_process_and_serial(mark),
+            false => {
+                let is_assembled = suffix.is_some_and(|suffix| ASSEMBLED.contains(&suffix));
+                is_assembled && (is_own || is_random(mark))
+            }
+        };
+        ours.then(|| SEQUENCE.to_owned())
     }
 
     /// STEM.manifest.jsonl, or STEM.manifest.K-N.jsonl of a shard.
@@ -98,9 +105,17 @@ impl Names {
     }
 }
 
-/// Whether a temporary file has this mark: six letters and digits.
+/// Whether a part of a mark is random: six letters and digits. Alone they were the mark of assembled
+/// files before [`MARK`].
 fn is_random(mark: &str) -> bool {
     mark.len() == 6 && mark.bytes().all(|byte| byte.is_ascii_alphanumeric())
+}
+
+/// Whether a temporary file has the mark of frames and pages of before [`MARK`]: PID-SERIAL.
+fn is_process_and_serial(mark: &str) -> bool {
+    let digits = |part: &str| !part.is_empty() && part.bytes().all(|byte| byte.is_ascii_digit());
+    mark.split_once('-')
+        .is_some_and(|(process, serial)| digits(process) && digits(serial))
 }
 
 /// Whether a name, or a part of it, is a frame's number.

@@ -1,6 +1,6 @@
 //! Errors of an image against its reference, in radiance and in color.
 
-use super::StudyError;
+use super::error::StudyError;
 use super::results::{Errors, Percentiles};
 use crate::color::spaces::{D65_XYZ, XYZ_FROM_RGB, apply};
 use crate::color::{delta_e_2000, lab_from_xyz};

@@ -1,7 +1,7 @@
 //! Timing of variants against each other, in rounds, so that a machine that slows down affects all
 //! of them equally.
 
-use super::StudyError;
+use super::error::StudyError;
 use super::results::Timing;
 use super::timed_render::{Run, Subject, Variant};
 

@@ -1,6 +1,6 @@
 //! One timed render of an image, in the same way as every image is rendered, with seconds by phase.
 
-use super::StudyError;
+use super::error::StudyError;
 use crate::accel::Aggregate;
 use crate::film::{Film, develop};
 use crate::frame::Frame;

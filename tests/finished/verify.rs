@@ -118,7 +118,7 @@ fn what_does_not_belong_to_the_shot_is_an_orphan() {
         "passing.0011.png",
         "passing.0003.exr",
         "passing.00004.png",
-        "passing.0002.png.aB3xY9.tmp",
+        "passing.0002.png.restframe-aB3xY9.tmp",
         "passing.gif",
         "passing.apng",
         "notes.txt",
@@ -131,7 +131,7 @@ fn what_does_not_belong_to_the_shot_is_an_orphan() {
         desk.findings(),
         [
             "orphan passing.00004.png",
-            "orphan passing.0002.png.aB3xY9.tmp",
+            "orphan passing.0002.png.restframe-aB3xY9.tmp",
             "orphan passing.0003.exr",
             "orphan passing.0011.png",
             "orphan passing.gif",

@@ -40,7 +40,10 @@ fn locks_and_files_that_a_killed_process_left_block_nothing_and_are_swept() {
     std::fs::create_dir_all(desk.path("renders/passing/.passing.locks")).unwrap();
     desk.write("renders/passing/.passing.locks/0001", "");
     desk.write("renders/passing/.passing.locks/sequence", "");
-    desk.write("renders/passing/passing.0001.png.q7Rs0T.tmp", "half a pic");
+    desk.write(
+        "renders/passing/passing.0001.png.restframe-q7Rs0T.tmp",
+        "half a pic",
+    );
     desk.done("render passing.toml --frames 1-2");
     assert!(
         !desk.has_leftovers("renders"),

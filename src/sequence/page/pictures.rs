@@ -51,7 +51,7 @@ pub(super) fn player(shot_folder: &ShotFolder, contents: &Contents<'_>) -> Marku
             }
             dl #facts { }
             p.faint { "← and → step, Home and End go to the ends, Space on the player plays. \
-                       The full picture is shown where the player stands image." }
+                       The full picture is shown where the player stands still." }
         }
     }
 }

@@ -2,9 +2,9 @@
 
 use super::Knob;
 use crate::scene::Scene;
-use crate::study::Start;
 use crate::study::displacement::displacement_of_spheres;
 use crate::study::spheres;
+use crate::study::start::Start;
 use crate::study::timed_render::{Bodies, Variant};
 use crate::trace::build_aggregate;
 use std::sync::Arc;

@@ -3,7 +3,7 @@
 use super::Knob;
 use crate::frame::ActiveEffects;
 use crate::shot::MOST_BOUNCES;
-use crate::study::Start;
+use crate::study::start::Start;
 use crate::study::timed_render::Variant;
 
 const BOUNCES: [u32; 7] = [0, 1, 2, 3, 4, 8, 16];

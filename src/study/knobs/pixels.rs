@@ -3,7 +3,7 @@
 use super::Knob;
 use crate::render::Options;
 use crate::shot::{Depth, Filter, Format};
-use crate::study::Start;
+use crate::study::start::Start;
 use crate::study::timed_render::Variant;
 
 const SAMPLES: [u32; 7] = [1, 2, 4, 8, 16, 32, 64];

@@ -4,7 +4,7 @@ use super::Knob;
 use crate::frame::{ActiveEffects, Frame};
 use crate::shot::{Accuracy, Shot, Spectra, Switch};
 use crate::spectrum::LineAxis;
-use crate::study::Start;
+use crate::study::start::Start;
 use crate::study::timed_render::Variant;
 
 /// Spacings of lines, nm; the paper's is 5.
