@@ -50,11 +50,11 @@ fn light(bencher: Bencher<'_, '_>, sky: &str, doppler: f64) {
     let library = Library::load(&shot).expect("files");
     let scene =
         Scene::resolve(&Frame::new(&shot, 1).expect("it moves"), &library, None).expect("a scene");
-    let called = Frame::new(&shot, 1)
+    let effects = Frame::new(&shot, 1)
         .expect("it moves")
         .active_effects(&shot.effects);
     let settings = Settings {
-        called: &called,
+        effects: &effects,
         accuracy: &shot.accuracy,
         sensor: &Sensor::new(&shot.sensor),
         reach: 1.0,

@@ -36,11 +36,11 @@ fn lines(bencher: Bencher<'_, '_>, spacing_nm: f64, lamp_doppler: f64) {
 /// XYZ of one lit surface at D = 1.2, the lamp at `lamp_doppler` to it.
 fn shade(bencher: Bencher<'_, '_>, effects: &str, accuracy: &str, lamp_doppler: f64) {
     let (prepared, scene, _) = shell(0.5, "shell", effects, accuracy);
-    let called = Frame::new(&prepared.shot, 1)
+    let effects = Frame::new(&prepared.shot, 1)
         .expect("it moves")
         .active_effects(&prepared.shot.effects);
     let settings = Settings {
-        called: &called,
+        effects: &effects,
         accuracy: &prepared.shot.accuracy,
         sensor: &Sensor::new(&prepared.shot.sensor),
         reach: 1.0,

@@ -98,9 +98,9 @@ fn scene() -> (Shot, Scene) {
 }
 
 fn shader(shot: &Shot, scene: &Scene) -> Shader {
-    let called = Frame::new(shot, 1).unwrap().active_effects(&shot.effects);
+    let effects = Frame::new(shot, 1).unwrap().active_effects(&shot.effects);
     let settings = Settings {
-        called: &called,
+        effects: &effects,
         accuracy: &shot.accuracy,
         sensor: &Sensor::new(&shot.sensor),
         reach: 3.0,

@@ -174,11 +174,11 @@ impl Wall {
         if let Some(lamp) = &light.lamp {
             self.scene.lights[0].spectrum = Arc::clone(lamp);
         }
-        let called = Frame::new(&self.shot, 1)
+        let effects = Frame::new(&self.shot, 1)
             .unwrap()
             .active_effects(&self.shot.effects);
         let settings = Settings {
-            called: &called,
+            effects: &effects,
             accuracy: &accuracy,
             sensor: &Sensor::new(&self.shot.sensor),
             reach,

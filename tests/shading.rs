@@ -65,9 +65,9 @@ fn shot(emissivity: &str) -> (Shot, Scene) {
 }
 
 fn worst(shot: &Shot, scene: &Scene) -> f64 {
-    let called = Frame::new(shot, 1).unwrap().active_effects(&shot.effects);
+    let effects = Frame::new(shot, 1).unwrap().active_effects(&shot.effects);
     let settings = Settings {
-        called: &called,
+        effects: &effects,
         accuracy: &shot.accuracy,
         sensor: &Sensor::new(&shot.sensor),
         reach: 175.0,

@@ -108,9 +108,9 @@ fn moving(beta: f64, yaw: f64, background: &str) -> String {
 fn shader(prepared: &Prepared) -> Shader {
     let shot = &prepared.shot;
     let scene = Scene::resolve(&Frame::new(shot, 1).unwrap(), &prepared.library, None).unwrap();
-    let called = Frame::new(shot, 1).unwrap().active_effects(&shot.effects);
+    let effects = Frame::new(shot, 1).unwrap().active_effects(&shot.effects);
     let settings = Settings {
-        called: &called,
+        effects: &effects,
         accuracy: &shot.accuracy,
         sensor: &Sensor::new(&shot.sensor),
         reach: 175.0,

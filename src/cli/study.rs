@@ -1,17 +1,10 @@
 //! `restframe study`: time and error of the accuracy settings.
 
 use super::{Failed, StudyArguments, failed, mistaken, misused, pool, print, say, warn};
-use crate::frame::Frames;
 use crate::render::{Options, Prepared};
-use crate::store::{Names, Request, write_atomically};
-use crate::study::{self, StudyError, report};
+use crate::store::{Names, write_atomically};
+use crate::study::{self, StudyError, default_frame, default_size, report};
 use std::path::Path;
-
-/// Default for the largest number of pixels of the image: one setting of most knobs then takes a
-/// second or less.
-const PIXELS: f64 = 640.0 * 360.0;
-/// Default for the largest number of samples per pixel.
-const SAMPLES: u32 = 4;
 
 /// Studies one image and writes the report.
 pub(super) fn run(arguments: &StudyArguments) -> Result<(), Failed> {
@@ -66,44 +59,30 @@ fn write(file: &Path, text: &str) -> Result<(), Failed> {
     write_atomically(file, text.as_bytes()).map_err(|error| failed(&error.to_string()))
 }
 
-/// The frame asked for, or the last of those with the most effects.
+/// The frame asked for, or the default.
 fn frame(prepared: &Prepared, asked: Option<u32>) -> Result<u32, Failed> {
-    let shot = &prepared.shot;
-    let frames = shot.shot.frames;
-    if let Some(frame) = asked {
-        return if (1..=frames).contains(&frame) {
-            Ok(frame)
-        } else {
-            Err(misused(&format!(
-                "the shot has frames 1 to {frames}, not {frame}"
-            )))
-        };
+    let frames = prepared.shot.shot.frames;
+    match asked {
+        None => default_frame(&prepared.shot).map_err(|m| mistaken(&m)),
+        Some(frame) if (1..=frames).contains(&frame) => Ok(frame),
+        Some(frame) => Err(misused(&format!(
+            "the shot has frames 1 to {frames}, not {frame}"
+        ))),
     }
     let mut most = (0, 1);
     let mut all = Frames::new(shot);
     for number in 1..=frames {
         let frame = all.at(number).map_err(|m| mistaken(&m))?;
-        let called = frame.active_effects(&frame.effects);
-        most = most.max((called.count(), number));
+        let effects = frame.active_effects(&frame.effects);
+        most = most.max((effects.count(), number));
     }
     Ok(most.1)
 }
 
-/// Size and samples asked for, or such that a study does not take too long.
+/// Size and samples asked for, or the default, without layers.
 fn size(prepared: &Prepared, arguments: &StudyArguments) -> Result<Options, Failed> {
     let shot = &prepared.shot;
-    let [width, height] = shot.image.size.map(f64::from);
-    let scale = arguments
-        .scale
-        .unwrap_or_else(|| (PIXELS / (width * height)).sqrt().min(1.0));
-    let samples = arguments
-        .samples
-        .unwrap_or_else(|| shot.image.samples.min(SAMPLES));
-    let request = Request {
-        scale,
-        samples: Some(samples),
-        ..Request::default()
-    };
+    let request = default_size(shot, arguments.scale, arguments.samples);
     request.check(shot).map_err(|why| misused(&why))?;
     Ok(Options {
         layers: Vec::new(),

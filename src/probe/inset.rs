@@ -1,13 +1,13 @@
-//! The curves of a pixel as a plot that stands in the picture itself.
+//! Plot of a pixel's curves for an inset in the image itself.
 //!
-//! Both axes hold still from frame to frame as far as they can, so that the curves are seen to
-//! move. Wavelengths run over a decade to each side of the sensor's window (an eye's: 50 to 5000
-//! nm, the range of the paper's curves), on a logarithmic axis, on which a Doppler shift moves a
-//! curve and leaves its shape alone. Spectral radiance is linear, so that the sum is seen to be one;
-//! its axis ends at the radiance of an even light whose luminance (of bands, whose mean) the frame's
-//! exposure brings to 1 or, where the curves rise higher, at a higher round value. Both ends are
-//! rounded to 1, 2 or 5. Curves are read as their author wrote them, however `accuracy.spectra` holds
-//! them for the picture.
+//! Both axes stay the same from frame to frame as far as possible, so that the curves are seen to
+//! move. Wavelengths cover a decade to each side of the sensor's window (for an eye: 50 to 5000 nm,
+//! the range of the paper's curves), on a logarithmic axis, on which a Doppler shift moves a curve
+//! and keeps its shape. Spectral radiance is linear, so that the sum is visible as one; its axis
+//! ends at the radiance of a flat spectrum whose luminance (for bands, whose mean) the frame's
+//! exposure brings to 1 or, if the curves are higher, at a higher round value. Both ends are
+//! rounded to 1, 2 or 5. Curves are evaluated as their author wrote them, however
+//! `accuracy.spectra` represents them for the image.
 
 use super::pixel::look;
 use super::plot::{SPACING, SURFACE, THERMAL_LIGHT, UNIT, curve, digits, peak, visible};
@@ -22,7 +22,7 @@ use crate::shade::Radiance;
 use crate::shot::Effects;
 use crate::trace::{Seen, ShadeTrees};
 
-/// Grey, so that it is told from the others without seeing colours.
+/// Gray, which is distinct from the others without color vision.
 const SUM: Color = [165, 165, 165];
 /// Room above the highest point of a curve.
 const HEADROOM: f64 = 1.03;
@@ -35,12 +35,12 @@ const MOST: f64 = 8192.0;
 /// too small to be read. Exposure is in stops.
 pub fn insets(
     member: Member<'_>,
-    stage: &Aggregate,
+    aggregate: &Aggregate,
     exposure: f64,
     size: [u32; 2],
 ) -> Vec<Option<Plot>> {
     let Member { frame, scene } = member;
-    // Insets under the same effects are seen in one view.
+    // Insets under the same effects share one view.
     let mut views: Vec<(Effects, View<'_>)> = Vec::new();
     let mut plots = Vec::new();
     for inset in frame.insets {
@@ -55,7 +55,7 @@ pub fn insets(
         let place = match known {
             Some(place) => place,
             None => {
-                let view = View::new(frame, &effects, scene, stage);
+                let view = View::new(frame, &effects, scene, aggregate);
                 views.push((effects, view));
                 views.len() - 1
             }
@@ -130,8 +130,8 @@ fn caption(trees: &ShadeTrees, view: &View<'_>, scene: &Scene) -> String {
     }
 }
 
-/// Spectral radiance of the even light that is just white in the picture, W·m⁻²·sr⁻¹·nm⁻¹; 0
-/// where nothing is.
+/// Spectral radiance of the flat spectrum that is just white in the image, W·m⁻²·sr⁻¹·nm⁻¹; 0 if
+/// there is none.
 fn white(frame: &Frame<'_>, exposure: f64) -> f64 {
     let Sensor { window, .. } = frame.sensor;
     let of_one = match render::channels(frame.sensor.color) {

@@ -1,4 +1,8 @@
-//! What the center of one pixel sees: event, Doppler factor, spectrum, color.
+//! Single pixels: what the ray through a pixel's center sees, in numbers and as curves.
+//!
+//! In: a [`View`](crate::render::View) of a frame and its scene. Out: a [`Probe`] (events, Doppler
+//! factors, radiance, color), and plots of its curves: a large one ([`plot`]) for
+//! `restframe probe --plot`, and a compact one ([`inset`]) for the image itself.
 
 mod inset;
 mod pixel;

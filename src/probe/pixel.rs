@@ -1,4 +1,4 @@
-//! The center of one pixel: its chain of surfaces, its spectral radiance, its color.
+//! What the center of one pixel sees: event, Doppler factor, spectrum, color.
 
 use crate::film::{Channels, SILENT};
 use crate::frame::Frame;
@@ -111,8 +111,7 @@ pub fn probe(
         cut = root.cut;
         enough = enough_bounces(view, cut, towards);
         light = if matches!(frame.accuracy.spectra, Spectra::Grid | Spectra::Rgb) {
-            // The grid's own curves are made for sums: what bends is smoothed. Three numbers have
-            // none.
+            // The grid's own curves are made for sums, with bends smoothed. RGB has no curves.
             view.curves(frame).radiance(&trees, root)
         } else {
             shader.radiance(&trees, root)
@@ -131,7 +130,7 @@ pub fn probe(
     let rgb = development(frame.sensor.color, exposure)
         .rgb_from_xyz
         .map(|row| {
-            // Held to a fraction of the numbers, so that their sum is one.
+            // Clamped to a fraction of f64's range, so that their sum is finite.
             const MOST: f64 = f64::MAX / 4.0;
             let terms = row.iter().zip(channels);
             let terms = terms.map(|(m, v)| (m * (v * gain)).clamp(-MOST, MOST));
@@ -154,8 +153,8 @@ pub fn probe(
     }
 }
 
-/// The shade tree of the ray through the centre of `pixel`, and its direction in the camera's rest
-/// frame; None where the camera's projection has no such ray.
+/// The shade tree of the ray through the center of `pixel`, and its direction in the camera's rest
+/// frame; None if the projection has no such ray.
 pub(super) fn look(
     frame: &Frame<'_>,
     pixel: [u32; 2],

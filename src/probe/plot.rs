@@ -1,8 +1,7 @@
 //! Plot of a pixel's curves: in the sensor's window, and over a band wide enough for all light that
 //! is shifted into or out of it.
 
-use super::Probe;
-use super::pixel::look;
+use super::pixel::{Probe, look};
 use crate::color::cie::{RANGE_NM, xyz_bar};
 use crate::color::spaces::{RGB_FROM_XYZ, apply, encode};
 use crate::frame::Frame;
@@ -46,7 +45,7 @@ pub struct WideBand {
     pub light: Radiance,
 }
 
-/// The light of the pixel that `probe` tells of, with the same view, over a wide band.
+/// The light of the pixel of `probe`, seen in the same view, over a wide band.
 pub fn wide_band(frame: &Frame<'_>, probe: &Probe, view: &View<'_>, scene: &Scene) -> WideBand {
     let band_nm = band(probe, frame.sensor.window, view, scene);
     let count = ((band_nm[1] / band_nm[0]).ln() / SPACING).ceil() as u32;

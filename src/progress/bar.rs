@@ -1,11 +1,11 @@
-//! The bar on a terminal: how much is done, and how long the rest will take.
+//! The bar on a terminal: share of the work done, and time left.
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
 use std::fmt::Write as _;
 use std::io::{self, IsTerminal};
 use std::time::Duration;
 
-/// What the whole work is, on the bar.
+/// The whole work, in units of the bar.
 const WHOLE: u64 = 1_000_000;
 
 /// A bar on standard error.
@@ -18,7 +18,7 @@ impl Bar {
         (io::stderr().is_terminal() && !dumb).then(|| Self(new_bar()))
     }
 
-    /// From now on time counts.
+    /// Starts measuring time.
     pub(super) fn begin(&self) {
         self.0.reset_elapsed();
     }
@@ -28,17 +28,17 @@ impl Bar {
         self.0.set_position((share * WHOLE as f64) as u64);
     }
 
-    /// Shows a few words beside it.
+    /// Shows a short text beside it.
     pub(super) fn label(&self, words: String) {
         self.0.set_message(words);
     }
 
-    /// Does something while it is off the screen.
+    /// Runs `act` while the bar is off the screen.
     pub(super) fn suspend(&self, act: impl FnOnce()) {
         self.0.suspend(act);
     }
 
-    /// Takes it off the screen.
+    /// Removes it from the screen.
     pub(super) fn end(&self) {
         self.0.finish_and_clear();
     }
@@ -65,8 +65,8 @@ fn new_bar() -> ProgressBar {
     bar
 }
 
-/// What is left to do over what was done in a second; the work is counted in expected cost, so that
-/// cheap frames do not fool it.
+/// The time left: remaining work over the rate so far. Work is counted in expected cost, so that
+/// cheap frames do not distort it.
 fn left(done: f64, elapsed: Duration) -> String {
     if done <= 0.0 {
         return "?".to_owned();

@@ -1,4 +1,4 @@
-//! Events of a run, and whoever listens to them.
+//! Events of a run, and their receivers.
 
 use super::outcome::FrameOutcome;
 use serde::Serialize;
@@ -8,14 +8,14 @@ use std::path::{Path, PathBuf};
 /// Something that happened in a run.
 #[derive(Debug)]
 pub enum Event<'a> {
-    /// The first: what is asked for.
+    /// The first event: what is asked for.
     Start {
         /// The shot files.
         shots: &'a [PathBuf],
-        /// How many frames of them.
+        /// Number of their frames.
         frames: u64,
     },
-    /// More of the work is done.
+    /// Some of the work is done.
     Advance {
         /// Share of the whole, counted in expected cost: 0 to 1.
         share: f64,
@@ -26,35 +26,35 @@ pub enum Event<'a> {
         shot: &'a Path,
         /// Its number.
         frame: u32,
-        /// What became of it.
+        /// Its outcome.
         outcome: &'a FrameOutcome,
-        /// Paths of its files, whether they are there or not.
+        /// Paths of its files, whether they exist or not.
         files: &'a [PathBuf],
-        /// How many frames are settled now.
+        /// Number of frames settled so far.
         settled: u64,
-        /// Of how many.
+        /// Number of all frames.
         frames: u64,
     },
-    /// Something that the pictures' viewer should know.
+    /// A warning about the images.
     Warning(&'a str),
-    /// Something that keeps frames from being rendered.
+    /// An error that keeps frames from being rendered.
     Error(&'a str),
     /// A file was made of finished frames.
     Assembled(&'a Path),
-    /// The last: how the run ended.
+    /// The last event: how the run ended.
     End(Summary),
 }
 
-/// How a run ended.
+/// Summary of a run.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
 pub struct Summary {
     /// Frames that were rendered.
     pub rendered: u64,
-    /// Frames that were there already.
+    /// Frames that existed already.
     pub kept: u64,
     /// Frames that failed.
     pub failed: u64,
-    /// Frames that nothing was done about.
+    /// Frames without an outcome.
     pub left: u64,
     /// Seconds of the wall clock.
     pub seconds: f64,
@@ -64,7 +64,7 @@ pub struct Summary {
 
 /// A listener to the events of a run, called from any of its threads. Any closure is one.
 pub trait Sink: Send + Sync {
-    /// Takes an event. Trouble is the sink's own: a run goes on without it.
+    /// Takes an event. Failures are the sink's own: the run continues.
     fn event(&self, event: &Event<'_>);
 
     /// The first error of a stream that programs read, if there was one.

@@ -1,4 +1,4 @@
-//! Events for programs: one JSON object a line, each with its kind as `event`.
+//! Events for programs: one JSON object per line, with its kind as `event`.
 
 use super::event::{Event, Sink, Summary};
 use super::text::write_line;
@@ -8,14 +8,14 @@ use std::io::{self, ErrorKind};
 use std::path::PathBuf;
 use std::sync::OnceLock;
 
-/// Version of what the lines say.
+/// Version of the format of the lines.
 const SCHEMA_VERSION: u32 = 1;
 
-/// A stream that gets a line for each event.
+/// A stream that receives a line for each event.
 pub(super) enum JsonLines {
-    /// Standard error: what cannot be written is passed over.
+    /// Standard error: failures to write are ignored.
     Stderr,
-    /// Standard output, and the first error of it.
+    /// Standard output, and its first error.
     Stdout(OnceLock<io::Error>),
 }
 
@@ -38,7 +38,7 @@ impl Sink for JsonLines {
     }
 }
 
-/// A line on standard output; the first error is kept. A reader who has gone away is no trouble.
+/// Writes a line to standard output; the first error is kept. A closed pipe is not an error.
 pub(super) fn answer(line: &str, trouble: &OnceLock<io::Error>) {
     if let Err(error) = write_line(&mut io::stdout().lock(), line)
         && error.kind() != ErrorKind::BrokenPipe
@@ -77,7 +77,7 @@ enum Line<'a> {
     Summary(Summary),
 }
 
-/// The object on one line; none for shares of work, which are too many.
+/// The object on one line; None for shares of work, which are too many.
 fn line(event: &Event<'_>) -> Option<String> {
     let line = match event {
         Event::Advance { .. } => return None,

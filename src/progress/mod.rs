@@ -1,7 +1,7 @@
-//! Progress: how far a run has come, as events for whoever listens.
+//! Progress of a run, as events for any receiver.
 //!
-//! In: what a run does, frame by frame ([`Progress`]). Out: [`Event`]s to any number of [`Sink`]s: a
-//! bar or plain lines on standard error, JSON, Open Job Description, or the caller's own closure.
+//! In: what a run does, frame by frame ([`Progress`]). Out: [`Event`]s to any number of [`Sink`]s:
+//! a bar or plain lines on standard error, JSON, Open Job Description, or the caller's own closure.
 
 mod bar;
 mod event;

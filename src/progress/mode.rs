@@ -1,4 +1,4 @@
-//! The sinks that a command line chooses among.
+//! The sinks from which a command line chooses.
 
 use super::bar::Bar;
 use super::event::Sink;
@@ -13,25 +13,25 @@ pub enum Mode {
     /// A bar on a terminal, plain lines elsewhere.
     #[default]
     Auto,
-    /// A bar; plain lines where standard error is no terminal that could show one.
+    /// A bar; plain lines if standard error is not a terminal that could show one.
     Bar,
     /// One line for each frame.
     Plain,
-    /// Events on standard error, one JSON object a line.
+    /// Events on standard error, one JSON object per line.
     Json,
-    /// Besides plain lines, those on standard output that Open Job Description asks for.
+    /// Plain lines, and in addition the lines of Open Job Description on standard output.
     OpenJd,
     /// Nothing but warnings and errors.
     None,
 }
 
-/// What standard output is for.
+/// Use of standard output.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub enum Results {
     /// Nothing.
     #[default]
     Nothing,
-    /// Events, one JSON object a line.
+    /// Events, one JSON object per line.
     Events,
 }
 

@@ -1,5 +1,5 @@
-//! Lines on standard output that Open Job Description asks for: `openjd_progress: 42.0` when the
-//! share of the work reaches another per cent, `openjd_status: …` for each frame.
+//! Open Job Description messages on standard output: `openjd_progress: 42.0` when the share of the
+//! work reaches another percent, `openjd_status: …` for each frame.
 
 use super::event::{Event, Sink};
 use super::json::answer;
@@ -7,10 +7,10 @@ use super::text::frame_line;
 use std::io;
 use std::sync::{Mutex, OnceLock, PoisonError};
 
-/// Open Job Description on standard output.
+/// A sink of Open Job Description messages.
 #[derive(Default)]
 pub(super) struct OpenJd {
-    /// The last share that was told, per cent.
+    /// The last share that was printed, percent.
     percent: Mutex<f64>,
     trouble: OnceLock<io::Error>,
 }

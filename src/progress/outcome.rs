@@ -3,23 +3,23 @@
 /// Outcome of one frame in a run.
 #[derive(Debug, Clone, PartialEq)]
 pub enum FrameOutcome {
-    /// It was there already.
+    /// It existed already.
     Kept {
-        /// Why, if it was not there when the run began.
+        /// The reason, if it did not exist when the run began.
         reason: Option<String>,
     },
     /// It was rendered.
     Rendered {
-        /// Why it had to be, if it was there before: "stale because …".
+        /// The reason, if it existed before: "stale because …".
         reason: Option<String>,
-        /// Seconds of the wall clock; of a shared trace its part.
+        /// Wall-clock seconds; its share of those of a shared trace.
         seconds: f64,
         /// Share of its light that was not followed in mirrors and glass.
         cut: f64,
     },
     /// It could not be rendered or written.
     Failed {
-        /// Why.
+        /// The reason.
         reason: String,
     },
 }
@@ -34,7 +34,7 @@ impl FrameOutcome {
         }
     }
 
-    /// Why.
+    /// The reason, if there is one.
     pub fn reason(&self) -> Option<&str> {
         match self {
             Self::Kept { reason } | Self::Rendered { reason, .. } => reason.as_deref(),

@@ -1,7 +1,7 @@
-//! Progress of a run: counts frames and work, and makes events of them.
+//! Counting of a run's frames and work, which makes the events.
 //!
-//! Work is counted in expected cost, in whatever unit the caller likes, so that cheap frames do not
-//! fool the time that is left.
+//! Work is counted in expected cost, in any unit, so that cheap frames do not distort the time
+//! left.
 
 use super::event::{Event, Sink, Summary};
 use super::mode::{Mode, Results, sinks};
@@ -33,7 +33,7 @@ pub struct Progress<'a> {
 struct Tally {
     frames: u64,
     summary: Summary,
-    /// All work, what is settled of it, and what of frames in work is done.
+    /// All work, the settled part of it, and the part done of frames in work.
     work: f64,
     settled: f64,
     in_flight: f64,
@@ -41,7 +41,7 @@ struct Tally {
 }
 
 impl<'a> Progress<'a> {
-    /// Progress that any number of sinks are told of.
+    /// Progress with any number of sinks.
     pub fn new(sinks: Vec<Box<dyn Sink + 'a>>) -> Self {
         Self {
             began: Instant::now(),
@@ -50,12 +50,12 @@ impl<'a> Progress<'a> {
         }
     }
 
-    /// Progress that one sink is told of, such as a closure.
+    /// Progress with one sink, such as a closure.
     pub fn to(sink: impl Sink + 'a) -> Self {
         Self::new(vec![Box::new(sink)])
     }
 
-    /// Progress that nobody is told of.
+    /// Progress without a sink.
     pub fn silent() -> Self {
         Self::new(Vec::new())
     }
@@ -65,7 +65,7 @@ impl<'a> Progress<'a> {
         Self::new(sinks(mode, results))
     }
 
-    /// Begins: so many frames of these shots, and the work of those that are to be rendered.
+    /// Begins: the number of frames of these shots, and the work of those that are to be rendered.
     pub fn start(&self, shots: &[PathBuf], frames: u64, work: f64) {
         let mut tally = self.tally();
         (tally.frames, tally.work) = (frames, work);
@@ -73,7 +73,7 @@ impl<'a> Progress<'a> {
         self.event(&Event::Start { shots, frames });
     }
 
-    /// Adds `work` to what is done of the frames in work.
+    /// Adds `work` to the part done of the frames in work.
     pub fn advance(&self, work: f64) {
         let share = {
             let mut tally = self.tally();
@@ -88,7 +88,7 @@ impl<'a> Progress<'a> {
         self.tally().in_flight = 0.0;
     }
 
-    /// Settles a frame, which was so much work.
+    /// Settles a frame, which was this much work.
     pub fn frame(
         &self,
         shot: &Path,
@@ -120,7 +120,7 @@ impl<'a> Progress<'a> {
         });
     }
 
-    /// Takes work off the whole that will not be done, or was done for nothing.
+    /// Subtracts work from the whole that will not be done, or was done in vain.
     pub fn discard(&self, work: f64) {
         let share = {
             let mut tally = self.tally();
@@ -131,12 +131,12 @@ impl<'a> Progress<'a> {
         self.event(&Event::Advance { share });
     }
 
-    /// Warns of something that the pictures' viewer should know.
+    /// Reports a warning about the images.
     pub fn warn(&self, message: &str) {
         self.event(&Event::Warning(message));
     }
 
-    /// Reports what keeps frames from being rendered.
+    /// Reports an error that keeps frames from being rendered.
     pub fn error(&self, message: &str) {
         self.event(&Event::Error(message));
     }
@@ -146,7 +146,7 @@ impl<'a> Progress<'a> {
         self.event(&Event::Assembled(file));
     }
 
-    /// Ends, with the exit status of the run. Only the first call does anything.
+    /// Ends the progress, with the exit status of the run. Only the first call has an effect.
     pub fn end(&self, exit: u8) {
         if let Some(summary) = self.summary(exit) {
             self.event(&Event::End(summary));
@@ -162,7 +162,7 @@ impl<'a> Progress<'a> {
         self.sinks.iter().for_each(|sink| sink.event(event));
     }
 
-    /// How it ended; once.
+    /// The summary. Can be taken once.
     fn summary(&self, exit: u8) -> Option<Summary> {
         let mut tally = self.tally();
         if std::mem::replace(&mut tally.ended, true) {

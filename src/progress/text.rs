@@ -1,4 +1,4 @@
-//! Events for people, on standard error: a bar with the time that is left on a terminal, elsewhere one
+//! Events for people, on standard error: a bar with the time left on a terminal, elsewhere one
 //! plain line for each frame, without escapes or carriage returns.
 
 use super::bar::Bar;
@@ -7,13 +7,13 @@ use super::outcome::FrameOutcome;
 use std::io::{self, Write};
 use std::path::PathBuf;
 
-/// How much of the events is shown. What cannot be written is passed over.
+/// Which events are shown. Failures to write are ignored.
 pub(super) enum Text {
     /// A bar, with the last frame beside it.
     Bar(Bar),
     /// A line for each frame.
     Lines,
-    /// Warnings and errors alone.
+    /// Warnings and errors only.
     Notes,
 }
 
@@ -124,14 +124,14 @@ pub(super) fn frame_line(
     let name = files.first().and_then(|file| file.file_name());
     line += &format!("  {}", name.unwrap_or_default().display());
     match outcome {
-        // An error of its own says so.
+        // A failure has an error message of its own.
         FrameOutcome::Failed { .. } => {}
         outcome => line.extend(outcome.reason().map(|reason| format!("  {reason}"))),
     }
     line
 }
 
-/// Writes the whole line in one call, so that lines of other processes do not come between.
+/// Writes the whole line in one call, so that lines of other processes do not interleave.
 pub(super) fn write_line(out: &mut impl Write, line: &str) -> io::Result<()> {
     out.write_all(format!("{line}\n").as_bytes())?;
     out.flush()

@@ -1,27 +1,27 @@
-//! Frames of a run as tasks, and batches of those that are rendered together: tasks that share a
-//! trace, of whatever shots, as many as the memory is meant to hold.
+//! Frames of a run as tasks, and batches of tasks that are rendered together: those that share a
+//! trace, of any shots, as many as memory allows.
 
 use super::memory::most_together;
 use crate::frame::{FrameFingerprint, TraceKey};
 use crate::render::Options;
 use crate::store::{Claim, FileStamps, Status};
 
-/// A frame that was chosen.
+/// A frame to be rendered or kept.
 #[derive(Debug, Clone)]
 pub(super) struct FrameTask {
-    /// Number of its job in the run.
+    /// Index of its job in the run.
     pub(super) job: usize,
     pub(super) frame: u32,
     pub(super) trace: TraceKey,
     pub(super) status: Status,
-    /// Its files as they were when `status` was judged; empty, where nothing was there.
+    /// Stamps of its files at the time when `status` was determined; empty if there were none.
     pub(super) stamps: FileStamps,
-    /// What it is expected to cost, seconds.
+    /// Expected cost, seconds.
     pub(super) work: f64,
 }
 
 impl FrameTask {
-    /// Why it is rendered, if it was there before.
+    /// Why it is rendered again, if it existed before.
     pub(super) fn reason(&self) -> Option<String> {
         match &self.status {
             Status::Fresh => Some("fresh, rendered by --force".to_owned()),
@@ -31,7 +31,7 @@ impl FrameTask {
     }
 }
 
-/// A frame that this process alone works on.
+/// A frame that this process has claimed.
 pub(super) struct ClaimedFrame {
     pub(super) task: FrameTask,
     /// What the frame is made of.
@@ -39,10 +39,10 @@ pub(super) struct ClaimedFrame {
     pub(super) claim: Claim,
 }
 
-/// Tasks in the order of work: by the first of each trace, tasks of one trace together, and so many
-/// at once as memory is meant to hold. `options` are those of the jobs, by their numbers.
+/// Batches of tasks, in the order of the first task of each trace. A batch has one trace, and at most
+/// [`most_together`] tasks. `options` are those of the jobs, by their numbers.
 pub(super) fn batches(tasks: Vec<FrameTask>, options: &[&Options]) -> Vec<Vec<FrameTask>> {
-    // Equal traces of two shots may still want other layers.
+    // Equal traces of two shots may still need different layers.
     let like = |one: &&Options| options.iter().position(|other| other == one);
     let layers: Vec<Option<usize>> = options.iter().map(like).collect();
     let mut groups = indexmap::IndexMap::<_, Vec<FrameTask>>::new();

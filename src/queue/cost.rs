@@ -1,8 +1,9 @@
-//! What frames will take: seconds, from those that frames like them took; memory and disk.
+//! Cost of frames: seconds, from those of similar frames; memory and disk.
 //!
-//! Seconds grow with pixels × samples, so each finished frame tells a rate, kept by the effects that
-//! it was rendered with. A frame is judged by the mean rate of this shot's frames with the same
-//! effects, else of any of this shot, else of the other shots below the same folder, else by a guess.
+//! Seconds are proportional to pixels × samples, so each finished frame gives a rate for the
+//! effects with which it was rendered. A frame is estimated by the mean rate of this shot's frames
+//! with the same effects, else of any of this shot, else of the other shots in the same folder,
+//! else by a guess.
 
 use super::memory::image_bytes;
 use crate::frame::{Frame, Resolution};
@@ -12,32 +13,33 @@ use std::collections::HashMap;
 use std::fs;
 use std::path::Path;
 
-/// Seconds a ray of frames that nothing is known of: those of the gallery's rows.toml in a release
-/// build on two cores. Other scenes take a tenth to ten times as long; whoever is told of it is told
-/// that it is a guess.
+/// Default rates, seconds per ray, if nothing has been measured: those of the gallery's rows.toml
+/// in a release build on two cores. Other scenes take a tenth to ten times as long; estimates are
+/// then marked as guesses.
 const GUESSED: Rate = Rate {
     trace: 4e-7,
     shade: 7e-8,
 };
 
-/// Bytes a pixel of a PNG, estimated; and what its metadata takes.
+/// Estimated bytes per pixel of a PNG, and bytes of its metadata.
 const PNG_BYTES: [u64; 2] = [1, 4096];
 
-/// Bytes a value of an EXR, estimated: compression takes away about half.
+/// Estimated bytes per value of an EXR: compression removes about half.
 const EXR_BYTES: u64 = 2;
 
-/// Memory of a mesh and its trees over the bytes of its file, estimated on the high side: a triangle
-/// takes 72 bytes, its corners and box about as much, and some 30 bytes of an indexed glb.
+/// Memory of a mesh and its trees relative to the bytes of its file, estimated on the high side: a
+/// triangle takes 72 bytes, its vertices and box about as much, and some 30 bytes of an indexed
+/// glb.
 const MESH_FACTOR: u64 = 5;
 
-/// Memory of the program itself, of threads, tables and what the allocator keeps: 90 MiB, by which
-/// three frames of 2560 x 1440 as PNG and EXR, 390 MiB, are judged 393.
+/// Memory of the program itself, of threads, tables and the allocator: 90 MiB, by which three
+/// frames of 2560 x 1440 as PNG and EXR, 390 MiB, are estimated as 393.
 const PROGRAM_BYTES: u64 = 90 << 20;
 
-/// Seconds a ray, by what the ray is for.
+/// Seconds per ray, by phase.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 struct Rate {
-    /// From the camera to shade trees, with what precedes it.
+    /// From the camera to shade trees, with preparation.
     trace: f64,
     /// From shade trees to files.
     shade: f64,
@@ -65,15 +67,14 @@ impl Mean {
     }
 }
 
-/// What one frame will take.
+/// Estimated cost of one frame.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Estimate {
-    /// Seconds of the clock on the wall until its shade trees are there; frames that share them
-    /// take this once.
+    /// Wall-clock seconds until its shade trees exist; frames that share them take this once.
     pub trace: f64,
-    /// Seconds from there to its files.
+    /// Wall-clock seconds from shade trees to files.
     pub shade: f64,
-    /// Whether that rests on frames finished here; else it is a guess.
+    /// Whether it is based on frames finished here; otherwise it is a guess.
     pub measured: bool,
 }
 
@@ -84,7 +85,7 @@ impl Estimate {
     }
 }
 
-/// What finished frames tell about others.
+/// Rates from finished frames.
 #[derive(Debug, Clone, Default)]
 pub struct Costs {
     by_effects: HashMap<Vec<String>, Mean>,
@@ -93,8 +94,8 @@ pub struct Costs {
 }
 
 impl Costs {
-    /// What the frames of a shot tell, or, where it has none, those in the folders beside its own.
-    /// A folder that cannot be read tells nothing.
+    /// Rates from the frames of a shot or, if it has none, from those in the folders beside its
+    /// own. A folder that cannot be read gives none.
     pub fn new(shot_folder: &ShotFolder) -> Self {
         let mut costs = Self::default();
         shot_folder
@@ -129,7 +130,7 @@ impl Costs {
         }
     }
 
-    /// What a frame of these effects and size will take.
+    /// Estimate for a frame with these effects and this size.
     pub fn estimate(&self, effects: &[String], picture: Resolution) -> Estimate {
         let same = self.by_effects.get(effects).and_then(Mean::rate);
         let known = same
@@ -144,7 +145,7 @@ impl Costs {
         }
     }
 
-    /// Seconds that a frame of these effects and size will take on its own.
+    /// Seconds for a frame with these effects and this size on its own.
     pub fn seconds(&self, effects: &[String], picture: Resolution) -> f64 {
         self.estimate(effects, picture).seconds()
     }
@@ -159,7 +160,7 @@ fn rays([width, height]: [u32; 2], samples: u32) -> f64 {
     f64::from(width) * f64::from(height) * f64::from(samples)
 }
 
-/// The seconds a ray of a finished frame. Of a shared trace it has only its part.
+/// The seconds per ray of a finished frame. It has only its share of a shared trace.
 fn rate_of(record: &Record) -> Option<Rate> {
     let seconds = &record.seconds;
     let rays = rays(record.size, record.samples);
@@ -172,8 +173,8 @@ fn rate_of(record: &Record) -> Option<Rate> {
     (sane(rate.trace) && sane(rate.shade)).then_some(rate)
 }
 
-/// Bytes that the files of a frame take: as many as finished ones of this size on average, else by
-/// what pictures usually take.
+/// Bytes of the files of a frame: the average of finished ones of this size, else that of typical
+/// images.
 pub fn frame_bytes(shot_folder: &ShotFolder) -> u64 {
     let picture = shot_folder.keys.resolution();
     let alike = |record: &&Record| record.size == picture.size;
@@ -205,8 +206,8 @@ pub fn frame_bytes(shot_folder: &ShotFolder) -> u64 {
     output.formats.iter().map(of_format).sum()
 }
 
-/// Bytes of memory that rendering takes: the images of as many frames as are in work at once, on so
-/// many threads, and the meshes.
+/// Bytes of memory for rendering: the images of as many frames as are in work at once, on this many
+/// threads, and the meshes.
 pub fn memory_bytes(shot_folder: &ShotFolder, films: usize, threads: usize) -> u64 {
     let meshes = MESH_FACTOR.saturating_mul(model_bytes(shot_folder.shot()));
     PROGRAM_BYTES

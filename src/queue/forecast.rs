@@ -1,8 +1,9 @@
-//! Forecast of a shot's rendering: what each frame calls for, which frames share a trace, what is there
-//! already, and what the rest will take.
+//! Forecast of a shot's rendering: the effects of each frame, shared traces, frames that exist
+//! already, and the cost of the rest.
 //!
-//! A first look at all frames tells which share a trace, and what is there; then each is planned and
-//! handed on before the next, so that of a million frames some bytes each are held.
+//! A first pass over all frames determines which share a trace, and which exist; then each is
+//! planned and handed on before the next, so that only a few bytes per frame are kept for a million
+//! frames.
 
 use super::cost::{Costs, Estimate, frame_bytes, memory_bytes};
 use super::memory::most_together;
@@ -14,7 +15,7 @@ use serde::Serialize;
 use std::collections::{BTreeMap, HashMap};
 use std::ops::ControlFlow;
 
-/// Frames that are planned at once, on all threads.
+/// Number of frames that are planned at once, on all threads.
 const AT_ONCE: usize = 4096;
 
 /// Forecast of some frames of a shot.
@@ -24,9 +25,9 @@ pub struct Forecast<'a> {
     frames: Vec<u32>,
     /// The number of each frame's trace.
     traces: Vec<u32>,
-    /// How many frames each trace has, and how many of them have to be rendered.
+    /// Number of frames of each trace, and number of those that have to be rendered.
     sharing: Vec<[u32; 2]>,
-    /// Of the frames of which something is there.
+    /// Status of the frames that exist.
     there: BTreeMap<u32, Status>,
 }
 
@@ -36,37 +37,37 @@ pub struct FrameForecast {
     /// Its number.
     pub frame: u32,
     /// What is simulated in it, and why.
-    pub called: ActiveEffects,
+    pub effects: ActiveEffects,
     /// Whether it has to be rendered.
     pub status: Status,
     /// Number of its trace, in the order of their first frames.
     pub trace: u32,
-    /// What rendering it would take on its own.
+    /// Cost of rendering it on its own.
     pub estimate: Estimate,
-    /// Seconds that it adds to the work that is left: 0 if it is fresh, of a shared trace its part.
+    /// Seconds that it adds to the remaining work: 0 if it is fresh, its share of a shared trace.
     pub seconds: f64,
 }
 
 /// All frames of a forecast together.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Totals {
-    /// How many frames.
+    /// Number of frames.
     pub frames: usize,
-    /// How many traces they share.
+    /// Number of traces that they share.
     pub traces: usize,
-    /// Frames that are there as they should be,
+    /// Number of frames that are up to date.
     pub fresh: usize,
-    /// that are there and should be something else,
+    /// Number of frames that exist but are not up to date.
     pub stale: usize,
-    /// of which nothing is there.
+    /// Number of frames that do not exist.
     pub missing: usize,
-    /// Seconds of the work that is left.
+    /// Seconds of the remaining work.
     pub seconds: f64,
-    /// Whether that rests on frames rendered here; else it is a guess.
+    /// Whether the time is based on frames rendered here; otherwise it is a guess.
     pub measured: bool,
     /// Memory that rendering takes, bytes.
     pub memory_bytes: u64,
-    /// Disk that the frames left will take, bytes.
+    /// Disk space for the remaining frames, bytes.
     pub disk_bytes: u64,
 }
 
@@ -80,7 +81,7 @@ struct Sums {
 }
 
 impl<'a> Forecast<'a> {
-    /// Looks at which frames share a trace, and what is there of them.
+    /// Groups frames by trace and looks up their status.
     ///
     /// # Errors
     /// Frames of which three numbers would be shifted, and velocities that are none between two keys.
@@ -153,12 +154,12 @@ impl<'a> Forecast<'a> {
     fn frame(&self, frames: &mut Frames<'_>, place: usize) -> Result<FrameForecast, Mistakes> {
         let (folder, frame) = (self.folder, self.frames[place]);
         let values = frames.at(frame)?;
-        let called = values.active_effects(&values.effects);
-        let effects = match values.splices.is_empty() {
-            true => called.names(),
+        let effects = values.active_effects(&values.effects);
+        let names = match values.splices.is_empty() {
+            true => effects.names(),
             false => values.active_names(),
         };
-        let estimate = self.costs.estimate(&effects, folder.keys.resolution());
+        let estimate = self.costs.estimate(&names, folder.keys.resolution());
         let status = self.there.get(&frame).unwrap_or(&Status::Missing).clone();
         let trace = self.traces[place];
         let [_, left] = self.sharing[trace as usize];
@@ -168,7 +169,7 @@ impl<'a> Forecast<'a> {
         };
         Ok(FrameForecast {
             frame,
-            called,
+            effects,
             status,
             trace,
             estimate,
@@ -176,7 +177,7 @@ impl<'a> Forecast<'a> {
         })
     }
 
-    /// All together, where at most so many frames of one trace are in work at once as memory holds.
+    /// The totals, with as many frames of one trace in work at once as memory allows.
     fn totals(&self, sums: &Sums) -> Totals {
         let folder = self.folder;
         let most = most_together(&folder.options);
@@ -212,7 +213,7 @@ impl Sums {
     }
 }
 
-/// Refuses velocities that are none between two keys, before anything is told.
+/// Refuses frames in which a worldline has no velocity, before any is planned.
 fn check_motion(shot: &Shot, frames: &[u32]) -> Result<(), Mistakes> {
     let wrong = frames.par_iter().map_init(
         || Frames::new(shot),

@@ -1,17 +1,17 @@
 //! Frame lists: which frames of a shot to work on, as written on the command line.
 //!
-//! Comma-separated: `7`, `1-10`, `1..10`, `1-10:3` or `1-10x3` (every third), `100-` (to the
-//! end), and with a sign where tools that know frames below 1 send them: `-3`, `-5--1`. Blanks
-//! may stand between the parts. Order and overlaps do not matter. `:` is the step, as Open Job
-//! Description (2023-09) has it; fileseq reads another meaning into it, USD yet another.
+//! Comma-separated: `7`, `1-10`, `1..10`, `1-10:3` or `1-10x3` (every third), `100-` (to the end),
+//! and with a sign for tools that count frames below 1: `-3`, `-5--1`. Blanks may separate the
+//! parts. Order and overlaps do not matter. `:` is the step, as in Open Job Description (2023-09);
+//! fileseq gives it another meaning, USD yet another.
 //!
-//! A list is kept as ranges and only put against the length of a shot ([`FrameList::resolve`]),
+//! A list is kept as ranges and only compared with the length of a shot in [`FrameList::resolve`],
 //! so `1-4000000000` costs nothing.
 
 use std::collections::BTreeSet;
 use std::str::FromStr;
 
-/// A list of frames, not yet put against a shot.
+/// A list of frames, independent of any shot.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct FrameList {
     ranges: Vec<Range>,
@@ -30,27 +30,27 @@ struct Range {
 pub struct Resolved {
     /// Numbers from 1 to the shot's last, ascending, each once.
     pub frames: Vec<u32>,
-    /// How many frames were asked for that the shot has not, counted in each part of the list.
+    /// Number of frames in the list that the shot does not have, counted in each part of the list.
     pub outside: u64,
 }
 
-/// A frame list that cannot be read. Every message names the part it is about.
+/// A frame list that cannot be read. Every message names the part at fault.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum FrameListError {
-    /// Nothing at all, or nothing between two commas.
+    /// Empty, or empty between two commas.
     #[error("the frame list {list:?} has an empty part; write frames like 1-10,20")]
     Empty {
         /// The whole list.
         list: String,
     },
-    /// A colon where a range would begin.
+    /// A colon in place of a range.
     #[error("{part:?} is no frame range; USD spelling? write {first}-{last}")]
     Colon {
         /// The part as written.
         part: String,
         /// The number before the colon.
         first: i64,
-        /// What follows it.
+        /// The text after it.
         last: String,
     },
     /// The last frame comes before the first.
@@ -107,10 +107,10 @@ impl FrameList {
         }
     }
 
-    /// Reads a list as the module describes it.
+    /// Reads a list in the format that the module describes.
     ///
     /// # Errors
-    /// At the first part that is no frame or range, with a hint of what was meant.
+    /// The first part that is not a frame or range, with a hint of what was meant.
     pub fn parse(list: &str) -> Result<Self, FrameListError> {
         let part = |part: &str| match part.trim() {
             "" => Err(FrameListError::Empty {
@@ -148,15 +148,15 @@ impl FromStr for FrameList {
 }
 
 impl Range {
-    /// Its last number in a shot of `frames` frames; an open range holds its first at least.
+    /// Its last number in a shot of `frames` frames; an open range contains at least its first.
     fn last(&self, frames: u32) -> i64 {
         self.last
             .unwrap_or_else(|| i64::from(frames).max(self.first))
     }
 
-    /// How many numbers it holds.
+    /// Number of frames in it.
     fn count(&self, frames: u32) -> u64 {
-        // Numbers have 18 digits at most, so the difference fits.
+        // Numbers have at most 18 digits, so the difference fits.
         ((self.last(frames) - self.first) / self.step) as u64 + 1
     }
 
@@ -172,7 +172,7 @@ impl Range {
             start += self.step;
         }
         let end = self.last(frames).min(i64::from(frames));
-        // A step beyond `usize` or the end leaves the first number alone, as it should.
+        // A step beyond `usize` or the end leaves only the first number, as it should.
         let step = usize::try_from(self.step).unwrap_or(usize::MAX);
         (start..=end)
             .step_by(step)
@@ -245,7 +245,7 @@ fn parse_part(part: &str) -> Result<Range, FrameListError> {
     }
 }
 
-/// The number that `text` begins with and what follows it, blanks around it left out.
+/// The number at the beginning of `text` and the text after it, without blanks around it.
 fn number<'a>(text: &'a str, part: &str) -> Result<Option<(i64, &'a str)>, FrameListError> {
     const MAX_DIGITS: usize = 18;
     let text = text.trim_start();

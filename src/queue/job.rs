@@ -1,4 +1,4 @@
-//! A shot of the run: which of its frames are there, and what became of each.
+//! A shot of the run: which of its frames exist, and the outcome of each.
 
 use super::batch::FrameTask;
 use super::cost::{Costs, active_names};
@@ -24,25 +24,25 @@ use std::path::PathBuf;
 pub struct Job {
     /// Its frames in their folder.
     pub folder: ShotFolder,
-    /// What became of its frames so far, by number.
+    /// Outcomes of its frames so far, by number.
     pub outcomes: BTreeMap<u32, FrameOutcome>,
     /// The frames chosen.
     frames: Vec<u32>,
-    /// Those of which nothing is decided yet; taken by the run.
+    /// Frames without an outcome yet; the run takes them.
     tasks: Vec<FrameTask>,
     /// Why this run can do no more for this shot.
     pub(super) halted: Option<String>,
     pub(super) prepared: Option<Prepared>,
     pub(super) manifest: Option<ManifestWriter>,
     pub(super) exposing: Option<Exposing>,
-    /// Trees to be taken over by the next image.
+    /// Bodies and trees for the next image.
     pub(super) kept: Option<(Scene, Aggregate)>,
     /// Whether it has been handed out as finished.
     pub(super) is_reported: bool,
 }
 
 impl Job {
-    /// The frames chosen of a shot. Its folder is looked at now, if pictures go there.
+    /// A job for the chosen frames of a shot. Its folder is read now, if images go there.
     ///
     /// # Errors
     /// A folder that cannot be read.
@@ -86,7 +86,7 @@ impl Job {
         &self.frames
     }
 
-    /// The frames chosen of which this run left none as it should be.
+    /// The chosen frames that are not up to date after this run.
     pub fn missing(&self) -> Vec<u32> {
         let is_there = |frame: &u32| {
             let outcome = self.outcomes.get(frame);
@@ -99,8 +99,8 @@ impl Job {
         frames.filter(|frame| !is_there(frame)).collect()
     }
 
-    /// Reads what the shot names, if a frame is to be rendered, and checks those that are. Nothing
-    /// is read where all is fresh.
+    /// Reads the files of the shot, if a frame is to be rendered, and checks those frames. Nothing
+    /// is read if all are fresh.
     ///
     /// # Errors
     /// All its mistakes.
@@ -119,8 +119,8 @@ impl Job {
         &self.folder.options
     }
 
-    /// Makes the folder ready, if a frame is to be rendered; where it cannot be written to, or the
-    /// images cannot be held, the job is halted. Records frames that were found without a record.
+    /// Prepares the folder, if a frame is to be rendered; if it cannot be written to, or the images
+    /// do not fit into memory, the job is halted. Records frames that were found without a record.
     pub(super) fn prepare_folder(&mut self, shard: Option<Shard>) {
         if self.prepared.is_some() {
             self.halted = self.open_folder(shard).err();
@@ -130,14 +130,15 @@ impl Job {
         let found = |frame: &u32| self.folder.found(*frame, &self.folder.keys.frame(*frame));
         let found: Vec<Found> = fresh.par_iter().filter_map(found).collect();
         if !found.is_empty() && self.halted.is_none() {
-            // The pictures are there all the same.
+            // The images exist all the same.
             let _unwritten = self
                 .open_manifest(shard)
                 .map(|manifest| manifest.append_found(&found));
         }
     }
 
-    /// Halts the job if its images cannot be held: all that memory needs.
+    /// Halts the job if its images do not fit into memory. Jobs that render to memory need no other
+    /// preparation.
     pub(super) fn prepare_memory(&mut self) {
         let fits = check_memory(self.options());
         self.halted = fits.err().map(|error| error.to_string());
@@ -183,9 +184,9 @@ impl Job {
         (wanted, kept.into_iter().map(|task| task.frame).collect())
     }
 
-    /// Whether another process made a frame what it should be since it was looked at.
+    /// Whether another process has brought a frame up to date since it was looked at.
     pub(super) fn was_rendered_meanwhile(&self, task: &FrameTask, key: &FrameFingerprint) -> bool {
-        // Manifests are not read again, frame after frame: the files tell enough.
+        // Manifests are not read again for every frame: the files show enough.
         self.folder.stamps(task.frame) != task.stamps
             && self.folder.status(task.frame, key) == Status::Fresh
     }
@@ -209,7 +210,7 @@ impl Job {
         })
     }
 
-    /// Settles a frame that was there already.
+    /// Settles a frame that existed already.
     pub(super) fn keep(&mut self, frame: u32, progress: &Progress<'_>) {
         let outcome = FrameOutcome::Kept { reason: None };
         let (path, files) = (&self.folder.shot().path, self.files(frame));
@@ -238,7 +239,8 @@ impl Job {
         self.settle(task, FrameOutcome::Failed { reason }, progress);
     }
 
-    /// Whether this run can do no more for the shot: its folder is full, or cannot be written to.
+    /// Whether this run can do no more for the shot: its disk is full, or the folder cannot be
+    /// written to.
     pub fn is_halted(&self) -> bool {
         self.halted.is_some()
     }
@@ -248,13 +250,13 @@ impl Job {
         self.halted.is_some() || self.outcomes.len() == self.frames.len()
     }
 
-    /// Gives back what rendering took.
+    /// Frees the memory that rendering took.
     pub(super) fn release(&mut self) {
         (self.prepared, self.kept) = (None, None);
     }
 }
 
-/// What is there of some frames. All at once: those without a record are decoded.
+/// The status of some frames. All at once, because those without a record are decoded.
 fn look(folder: &ShotFolder, frames: &[u32]) -> Vec<(FileStamps, Status)> {
     let there = folder.there();
     let statuses = frames.par_iter().map(|frame| match there.contains(frame) {
@@ -271,8 +273,8 @@ fn is_wanted(task: &FrameTask, force: Force) -> bool {
     force == Force::Yes || task.status != Status::Fresh
 }
 
-/// Leaves each folder, of the frames chosen, those of one shard. Folders are not looked at: whatever
-/// a machine finds there, all deal alike.
+/// Keeps, in each folder, only the chosen frames of one shard. The contents of folders do not
+/// matter, so that all machines divide the work in the same way.
 pub(super) fn choose_shard(folders: &mut [(ShotFolder, Vec<u32>)], shard: Shard) {
     let all = folders.iter();
     let traces = all.flat_map(|(folder, frames)| folder.keys.trace_keys_of(frames));

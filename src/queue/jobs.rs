@@ -1,4 +1,4 @@
-//! The jobs of a run: shots opened, frames chosen, and everything that is wrong with them.
+//! The jobs of a run: shots opened, frames chosen, and all errors.
 
 use super::frames::FrameList;
 use super::job::{Job, choose_shard};
@@ -8,7 +8,7 @@ use crate::shot::{Mistakes, Shot};
 use crate::store::{FolderError, Names, Request, ShotFolder};
 use std::collections::HashMap;
 
-/// The jobs of a run, and what was wrong with the others.
+/// The jobs of a run, and the errors of the others.
 #[derive(Default)]
 pub(super) struct JobList {
     /// Those that can be rendered, in the order of the shots.
@@ -19,7 +19,7 @@ pub(super) struct JobList {
     pub(super) unreadable: Vec<FolderError>,
 }
 
-/// A run that contradicts itself or its shots: nothing of it is begun.
+/// A run that contradicts itself or its shots, and does not begin.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error("{0}")]
 pub struct Contradiction(String);

@@ -1,19 +1,19 @@
-//! Memory that images take: films as they are rendered together, and as they become files.
+//! Memory of images: films that are rendered together, and images being encoded.
 
 use crate::render::{Options, film_bytes};
 use crate::store::free_memory_mib;
 
-/// Most memory for the films of a batch, bytes. A film of 1280 x 720 is 11 MiB: forty and more
-/// share a trace, which leaves a fortieth of it to each; of more, little would be gained, and all
-/// that a killed run was at work on is lost.
+/// Memory for the films of a batch at most, bytes. A film of 1280 x 720 is 11 MiB: forty and more
+/// share a trace, so that each takes a fortieth of its time; more would gain little, and a killed
+/// run would lose all of it.
 const FILMS: u64 = 512 << 20;
 
-/// Most memory for images that are developed and encoded at once, bytes. One of 3840 x 2160 takes
-/// 245 MiB, so that four threads are at work on such, and all threads on smaller ones.
+/// Memory for images that are developed and encoded at once at most, bytes. One of 3840 x 2160
+/// takes 245 MiB, so that four threads work on such images, and all threads on smaller ones.
 const DEVELOPED: u64 = 1 << 30;
 
-/// How many frames that share a trace are in work at once: at least one, and so many that their
-/// films take 512 MiB.
+/// Number of frames with the same trace in work at once: at least one, and as many as fit into 512
+/// MiB.
 pub fn most_together(options: &Options) -> usize {
     let most = FILMS / film_bytes(options).max(1);
     usize::try_from(most).unwrap_or(usize::MAX).max(1)
@@ -25,9 +25,9 @@ pub fn most_together(options: &Options) -> usize {
     "{width} x {height} pixels need about {needed} MiB of memory and {free} MiB are free; render with a smaller --scale"
 )]
 pub struct TooLarge {
-    /// Pixels in a row.
+    /// Width in pixels.
     width: u32,
-    /// Rows.
+    /// Height in pixels.
     height: u32,
     /// MiB needed.
     needed: u64,
@@ -35,24 +35,25 @@ pub struct TooLarge {
     free: u64,
 }
 
-/// How many films are developed and encoded at once on so many threads, at least one.
+/// Number of films that are developed and encoded at once on this many threads, at least one.
 pub(super) fn most_developed(options: &Options, threads: usize) -> usize {
     let most = DEVELOPED / developed_bytes(options).max(1);
     let most = usize::try_from(most).unwrap_or(usize::MAX);
     most.min(threads).max(1)
 }
 
-/// Bytes of so many films that share a trace, with those that are developed and encoded at once.
+/// Bytes of this many films that share a trace, with those that are developed and encoded at once.
 pub(super) fn image_bytes(options: &Options, films: usize, threads: usize) -> u64 {
     let developed = most_developed(options, threads).min(films) as u64;
     let films = film_bytes(options).saturating_mul(films as u64);
     films.saturating_add(developed_bytes(options).saturating_mul(developed))
 }
 
-/// Refuses an image that this machine surely cannot hold, rather than be killed half-way.
+/// Refuses an image that this machine surely cannot hold, before the system kills the process
+/// half-way.
 ///
 /// # Errors
-/// What it needs and what is free.
+/// The memory needed and the memory free.
 pub(super) fn check_memory(options: &Options) -> Result<(), TooLarge> {
     let needed = image_bytes(options, 1, 1) >> 20;
     match free_memory_mib() {
@@ -66,7 +67,7 @@ pub(super) fn check_memory(options: &Options) -> Result<(), TooLarge> {
     }
 }
 
-/// Bytes that an image takes beside its film: developed values, bytes of a picture, the encoder's
+/// Bytes that an image takes besides its film: developed values, bytes of an image, the encoder's
 /// copy of them.
 fn developed_bytes(options: &Options) -> u64 {
     let pixel = 12 + 3 + 16 + 4 * options.layers.len() as u64;

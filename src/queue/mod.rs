@@ -1,11 +1,11 @@
 //! The queue: a run, which renders the frames of some shots in batches.
 //!
-//! In: shots and what is asked of them ([`Settings`]). Out: pictures in the shots' folders or in memory
-//! ([`Output`]), what became of each frame ([`Job::outcomes`]), and events of the work
-//! ([`Progress`](crate::progress::Progress)). A [`Run`] hands out each shot as soon as nothing is left
-//! to do for it, so that its caller can go on with it.
+//! In: shots and [`Settings`]. Out: images in the shots' folders or in memory ([`Output`]), the
+//! outcome of each frame ([`Job::outcomes`]), and events ([`Progress`](crate::progress::Progress)).
+//! A [`Run`] returns each shot as soon as nothing is left to do for it, so that its caller can
+//! assemble it.
 //!
-//! Pictures do not depend on batching, order, thread count or process count.
+//! Images do not depend on batching, order, thread count or process count.
 
 mod batch;
 mod cost;

@@ -1,4 +1,4 @@
-//! The record of a frame that has just been finished.
+//! The record of a frame that was just finished.
 
 use super::job::Job;
 use super::render_batch::stops;
@@ -6,7 +6,7 @@ use crate::frame::{Frame, FrameFingerprint};
 use crate::render::Pictures;
 use crate::store::{Record, Seconds, host, now, peak_memory_mib};
 
-/// What a frame's viewer should know.
+/// Warnings about a frame's image.
 pub(super) fn warnings(made: &Pictures, left_out: Option<String>) -> Vec<String> {
     let saturated = (made.saturated > 0).then(|| {
         let values = made.saturated;
@@ -16,7 +16,7 @@ pub(super) fn warnings(made: &Pictures, left_out: Option<String>) -> Vec<String>
     seen.chain(made.warnings.clone()).collect()
 }
 
-/// The record of a frame, but for its files, times and warnings.
+/// The record of a frame, except its files, times and warnings.
 pub(super) fn new_record(job: &Job, frame: &Frame<'_>, key: &FrameFingerprint) -> Record {
     let options = job.options();
     Record {

@@ -1,4 +1,4 @@
-//! A batch of frames, from scenes to films.
+//! Rendering a batch of frames, from scenes to films. All tracing is done here.
 
 use super::batch::ClaimedFrame;
 use super::job::Job;
@@ -16,22 +16,22 @@ use std::time::Instant;
 
 /// A batch that has been rendered.
 pub(super) struct RenderedBatch {
-    /// Number of the first frame's job.
+    /// Index of the first frame's job.
     pub(super) first: usize,
     /// One for each frame.
     pub(super) scenes: Vec<Scene>,
-    pub(super) stage: Aggregate,
+    pub(super) aggregate: Aggregate,
     pub(super) together: Together,
 }
 
-/// Why a batch gave no films.
+/// Reason why a batch gave no films.
 pub(super) enum Unrendered {
     Stopped,
-    /// This frame of the batch; the others may do.
+    /// This frame of the batch failed; the others may succeed.
     Failed(usize, RenderError),
 }
 
-/// Why a frame cannot be rendered.
+/// Reason why a frame cannot be rendered.
 #[derive(Debug, thiserror::Error)]
 pub(super) enum RenderError {
     /// Too large for this machine.
@@ -42,8 +42,8 @@ pub(super) enum RenderError {
     Mistakes(Box<Mistakes>),
 }
 
-/// Renders a batch, which is not empty. Bodies and trees are taken over from the image that the first
-/// frame's job rendered last.
+/// Renders a batch, which is not empty. Bodies and trees are taken over from the image that the
+/// first frame's job rendered last.
 pub(super) fn render(
     jobs: &mut [Job],
     batch: &[ClaimedFrame],
@@ -60,7 +60,7 @@ pub(super) fn render(
     let jobs = &*jobs;
     let frames = frames(jobs, batch)?;
     let scenes = scenes(jobs, batch, &frames, kept.as_ref().map(|(scene, _)| scene))?;
-    let stage = stage(kept, &scenes[0]);
+    let aggregate = aggregate(kept, &scenes[0]);
     let prepare = begun.elapsed().as_secs_f64();
     let member = |(frame, scene)| Member { frame, scene };
     let members: Vec<Member<'_>> = frames.iter().zip(&scenes).map(member).collect();
@@ -72,13 +72,13 @@ pub(super) fn render(
         done: &|rays| settings.progress.advance(rays as f64 * work_per_ray),
         stop: settings.stop.asked(),
     };
-    let rendered = render_together(&members, &stage, options, watch);
+    let rendered = render_together(&members, &aggregate, options, watch);
     let mut together = rendered.map_err(|Stopped| Unrendered::Stopped)?;
     together.prepare += prepare;
     Ok(RenderedBatch {
         first,
         scenes,
-        stage,
+        aggregate,
         together,
     })
 }
@@ -89,7 +89,7 @@ pub(super) fn stops(job: &Job, frame: &Frame<'_>) -> f64 {
     exposing.map_or(0.0, |exposing| exposing.stops(frame))
 }
 
-/// Finds a shot's exposure, once.
+/// Determines a shot's exposure, once.
 fn meter(job: &mut Job, progress: &Progress<'_>) -> Result<(), Mistakes> {
     let (None, Some(prepared)) = (&job.exposing, &job.prepared) else {
         return Ok(());
@@ -116,7 +116,7 @@ fn frames<'a>(jobs: &'a [Job], batch: &[ClaimedFrame]) -> Result<Vec<Frame<'a>>,
 }
 
 /// The scenes of a batch; bodies are taken over from the last one of the same shot, first from
-/// `kept`, which is of the first frame's.
+/// `kept`, which belongs to the first frame's job.
 fn scenes(
     jobs: &[Job],
     batch: &[ClaimedFrame],
@@ -136,12 +136,12 @@ fn scenes(
     Ok(scenes)
 }
 
-/// Bodies taken over from the last image where they stand as they stood, trees where they can be.
-fn stage(kept: Option<(Scene, Aggregate)>, scene: &Scene) -> Aggregate {
+/// Bodies taken over from the last image if they have not moved, trees if possible.
+fn aggregate(kept: Option<(Scene, Aggregate)>, scene: &Scene) -> Aggregate {
     match kept {
-        Some((old, stage)) if Arc::ptr_eq(&old.geometry, &scene.geometry) => stage,
+        Some((old, aggregate)) if Arc::ptr_eq(&old.geometry, &scene.geometry) => aggregate,
         other => {
-            let earlier = other.as_ref().map(|(_, stage)| stage);
+            let earlier = other.as_ref().map(|(_, aggregate)| aggregate);
             build_aggregate(&scene.geometry, earlier)
         }
     }

@@ -1,5 +1,5 @@
-//! A run: the frames of some shots rendered, batch by batch, beside other processes that may be at
-//! work on the same.
+//! A run: the frames of some shots rendered, batch by batch, beside other processes that may render
+//! the same shots.
 
 use super::batch::{ClaimedFrame, FrameTask, batches};
 use super::job::Job;
@@ -58,17 +58,17 @@ pub struct Run<'a> {
     settings: Settings<'a>,
     is_begun: bool,
     batches: VecDeque<Vec<FrameTask>>,
-    /// Tasks that other processes are at work on, to be looked at again.
+    /// Tasks that other processes have claimed, to be checked again.
     held: Vec<FrameTask>,
-    /// How many tasks there were when `batches` was made.
+    /// Number of tasks when `batches` was made.
     pass: usize,
     waits: usize,
 }
 
-/// Why a run is not begun.
+/// Reason why a run does not begin.
 #[derive(Debug, thiserror::Error)]
 pub enum RunError {
-    /// It contradicts itself or its shots.
+    /// The run contradicts itself or its shots.
     #[error(transparent)]
     Contradiction(#[from] Contradiction),
     /// Mistakes in shots, those of each shot together.
@@ -176,7 +176,7 @@ impl<'a> Run<'a> {
         while self.next_finished().is_some() {}
     }
 
-    /// Renders the next batch, or waits for other processes; false when nothing is left.
+    /// Renders the next batch, or waits for other processes; false if nothing is left.
     fn next_batch(&mut self) -> bool {
         if let Some(batch) = self.batches.pop_front() {
             let claimed = self.claim(batch);
@@ -196,7 +196,8 @@ impl<'a> Run<'a> {
         true
     }
 
-    /// What of a batch is this process's to render. What others are at work on is held over.
+    /// The part of a batch that this process can claim. Frames claimed by others are checked again
+    /// later.
     fn claim(&mut self, batch: Vec<FrameTask>) -> Vec<ClaimedFrame> {
         let settings = &self.settings;
         let progress = settings.progress;
@@ -229,7 +230,7 @@ impl<'a> Run<'a> {
         claimed
     }
 
-    /// Renders and writes a batch; the claims are dropped with it. A frame that fails is reported, and
+    /// Renders and writes a batch, whose claims end with it. A frame that fails is reported, and
     /// the others are tried again.
     fn work(&mut self, mut batch: Vec<ClaimedFrame>) {
         let (jobs, settings) = (&mut self.jobs, &self.settings);
@@ -246,7 +247,7 @@ impl<'a> Run<'a> {
         }
     }
 
-    /// Waits for other processes, and says so once.
+    /// Waits for other processes, and reports that once.
     fn wait(&mut self, frames: usize) {
         const PAUSE: Duration = Duration::from_millis(100);
         if self.waits == 0 {

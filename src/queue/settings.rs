@@ -1,4 +1,4 @@
-//! What a run is asked to do, where its pictures go, and who is told.
+//! Settings of a run: what to render, where images go, and who receives events.
 
 use super::frames::FrameList;
 use super::shard::Shard;
@@ -7,20 +7,20 @@ use crate::progress::Progress;
 use crate::store::{Record, Request};
 use std::path::PathBuf;
 
-/// What a run is asked to do, where its pictures go, and who is told.
+/// Settings of a run: what to render, where images go, and who receives events.
 #[derive(Clone)]
 pub struct Settings<'a> {
-    /// Size and samples of the pictures, and their folder.
+    /// Size, samples and folder of the images.
     pub request: Request,
     /// Frames of each shot. Default: all.
     pub frames: FrameList,
-    /// One of N parts of the frames chosen. Default: all of them.
+    /// One of N parts of the chosen frames. Default: all of them.
     pub shard: Option<Shard>,
-    /// Which of the frames chosen are rendered. Default: those that are missing or stale.
+    /// Which of the chosen frames are rendered. Default: those that are missing or stale.
     pub force: Force,
-    /// Where the pictures go. Default: to folders.
+    /// Destination of the images. Default: folders.
     pub output: Output<'a>,
-    /// Told of everything.
+    /// Receiver of all events.
     pub progress: &'a Progress<'a>,
     /// Once asked to stop, the work ends within two seconds.
     pub stop: &'a Stop,
@@ -46,7 +46,7 @@ impl<'a> Settings<'a> {
     }
 }
 
-/// Which frames of those chosen are rendered.
+/// Which of the chosen frames are rendered.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub enum Force {
     /// Those that are missing or stale.
@@ -56,11 +56,11 @@ pub enum Force {
     Yes,
 }
 
-/// Where the files of finished frames go.
+/// Destination of the files of finished frames.
 #[derive(Clone, Copy)]
 pub enum Output<'a> {
-    /// To the folder of each shot, whole or absent, each with a record in the manifest. What is
-    /// there already is kept, and other processes may render into the same folder.
+    /// The folder of each shot; files are complete or absent, each with a record in the manifest.
+    /// Existing frames are kept, and other processes may render into the same folder.
     Folder,
     /// To the caller, frame by frame as they are finished. Nothing is read but what shots name, and
     /// nothing is written.
@@ -82,6 +82,6 @@ pub struct RenderedFrame {
     pub frame: u32,
     /// Extension and bytes of its files, in the order of the shot's `output.formats`.
     pub files: Vec<(&'static str, Vec<u8>)>,
-    /// What a manifest would tell of it.
+    /// The record that a manifest would have.
     pub record: Record,
 }

@@ -1,4 +1,4 @@
-//! Shards: the K-th of N parts of the work, the same on every machine.
+//! Shards: part K of N of the work, the same on every machine.
 
 use std::collections::HashMap;
 use std::hash::Hash;
@@ -7,9 +7,9 @@ use std::str::FromStr;
 /// One of N parts.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Shard {
-    /// Which, from 1.
+    /// K, from 1.
     k: u32,
-    /// Of how many.
+    /// N.
     n: u32,
 }
 
@@ -24,9 +24,9 @@ impl Shard {
         [self.k, self.n]
     }
 
-    /// Which frames are this shard's, of a list told by their traces. Traces are dealt out in the
-    /// order in which they first stand there, so that frames which share one stay together and
-    /// shards take about equally long.
+    /// This shard's frames, of a list given by their traces. Traces are dealt out in the order of
+    /// their first frames, so that frames with the same trace stay together and shards take about
+    /// equally long.
     pub fn choose<T: Hash + Eq>(self, traces: impl Iterator<Item = T>) -> Vec<bool> {
         let mut numbers: HashMap<T, usize> = HashMap::new();
         let number = |trace| {

@@ -1,8 +1,8 @@
-//! Stopping when told to: by the terminal (SIGINT) or by whoever runs the machine (SIGTERM).
+//! Stopping on request: by the terminal (SIGINT) or by the system (SIGTERM).
 //!
-//! The first signal asks the work to stop; where it cannot in time (a model of gigabytes is being
-//! read, say), the process ends anyway, and a second signal ends it at once. What is finished
-//! stays, and nothing is torn ([`write_atomically`](crate::store::write_atomically)).
+//! The first signal asks the work to stop; if it cannot in time (for example while a model of
+//! gigabytes is being read), the process ends anyway, and a second signal ends it at once. Finished
+//! frames stay, and no file is incomplete ([`write_atomically`](crate::store::write_atomically)).
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
@@ -21,7 +21,7 @@ impl Stop {
     /// status before the process ends with it.
     ///
     /// # Errors
-    /// When the system refuses.
+    /// If the system refuses.
     pub fn listen(late: impl Fn(u8) + Send + 'static) -> std::io::Result<Self> {
         let stop = Self::default();
         system::listen(stop.clone(), late)?;
@@ -38,12 +38,12 @@ impl Stop {
         &self.asked
     }
 
-    /// Whether it was asked to stop.
+    /// Whether a stop was requested.
     pub fn is_asked(&self) -> bool {
         self.asked.load(Ordering::Relaxed)
     }
 
-    /// Exit status of a process that was asked to stop: 130 interrupted, 143 terminated.
+    /// Exit status of a process that was asked to stop: 130 if interrupted, 143 if terminated.
     pub fn status(&self) -> Option<u8> {
         let status = self.status.load(Ordering::SeqCst);
         u8::try_from(status).ok().filter(|status| *status > 0)
@@ -59,14 +59,14 @@ mod system {
     use std::sync::atomic::{AtomicBool, Ordering};
     use std::time::Duration;
 
-    /// How long the work may take to stop, and how long it may then take to tell so (a pipe that
-    /// nobody reads would take for ever): two seconds are promised.
+    /// Time for the work to stop, and time for then reporting it (a pipe that nobody reads would
+    /// block forever): two seconds are promised.
     const PATIENCE: Duration = Duration::from_millis(1700);
     const LAST_WORDS: Duration = Duration::from_millis(100);
 
     pub(super) fn listen(stop: Stop, late: impl Fn(u8) + Send + 'static) -> std::io::Result<()> {
-        // With a handler, if only of a flag that nobody reads, a file that grows beyond the limit
-        // is an error of its writer and does not end the process.
+        // With a handler, even one that only sets an unused flag, a file that grows beyond the
+        // limit is an error of its writer and does not end the process.
         signal_hook::flag::register(SIGXFSZ, Arc::new(AtomicBool::new(false)))?;
         let ignored = ignored();
         let heard = [SIGINT, SIGTERM].into_iter();
@@ -91,7 +91,7 @@ mod system {
         Ok(())
     }
 
-    /// A bit for each signal that is ignored, where the system says.
+    /// A bit for each ignored signal, if the system states them.
     fn ignored() -> u64 {
         let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
         let mask = status.lines().find_map(|line| line.strip_prefix("SigIgn:"));
@@ -109,7 +109,7 @@ mod system {
 
     pub(super) fn listen(stop: Stop, _late: impl Fn(u8) + Send + 'static) -> std::io::Result<()> {
         for (signal, status) in [(SIGINT, 130_u8), (SIGTERM, 143)] {
-            // In this order: the first signal finds nothing asked yet.
+            // In this order: the first signal finds no request yet.
             flag::register_conditional_shutdown(signal, status.into(), Arc::clone(&stop.asked))?;
             flag::register_usize(signal, Arc::clone(&stop.status), status.into())?;
             flag::register(signal, Arc::clone(&stop.asked))?;

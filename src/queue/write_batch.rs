@@ -1,4 +1,4 @@
-//! A batch of films, from what their pictures show beside them to files and records.
+//! Writing a batch of films: from development to files and records.
 
 use super::batch::{ClaimedFrame, FrameTask};
 use super::job::Job;
@@ -31,8 +31,8 @@ struct Probed {
     left_out: Option<String>,
 }
 
-/// Films to files, as many at once as threads and memory allow; a frame is settled when it is on the
-/// disk.
+/// Writes films to files, as many at once as threads and memory allow; a frame is settled when it
+/// is on the disk.
 pub(super) fn write(
     jobs: &mut [Job],
     batch: Vec<ClaimedFrame>,
@@ -42,7 +42,7 @@ pub(super) fn write(
     let RenderedBatch {
         first,
         scenes,
-        stage,
+        aggregate,
         together,
     } = rendered;
     let Together {
@@ -62,7 +62,7 @@ pub(super) fn write(
         if chunk.is_empty() || settings.is_stopped() && deadline.is_over() {
             break;
         }
-        // A picture that there is no room for need not be made.
+        // An image for which there is no room need not be made.
         let (lost, chunk): (Vec<_>, Vec<_>) = chunk
             .into_iter()
             .partition(|(claimed, ..)| jobs[claimed.task.job].halted.is_some());
@@ -70,7 +70,7 @@ pub(super) fn write(
             settings.progress.discard(claimed.task.work);
         }
         let probing = Instant::now();
-        let probed = probe(jobs, &chunk, &stage, settings);
+        let probed = probe(jobs, &chunk, &aggregate, settings);
         let probe_seconds = probing.elapsed().as_secs_f64() / chunk.len() as f64;
         let begun = Instant::now();
         let encoded: Vec<_> = chunk
@@ -111,7 +111,7 @@ pub(super) fn write(
         deadline.last = probing.elapsed();
     }
     drop(rest);
-    jobs[first].kept = scenes.into_iter().next().map(|scene| (scene, stage));
+    jobs[first].kept = scenes.into_iter().next().map(|scene| (scene, aggregate));
 }
 
 /// Looks up what pictures show beside their films, of as many frames as are about to be encoded; None
@@ -119,7 +119,7 @@ pub(super) fn write(
 fn probe(
     jobs: &[Job],
     chunk: &[Rendered<'_>],
-    stage: &Aggregate,
+    aggregate: &Aggregate,
     settings: &Settings<'_>,
 ) -> Vec<Option<Result<Probed, String>>> {
     let probed = chunk.par_iter().map(|(claimed, scene, film)| {
@@ -139,8 +139,8 @@ fn probe(
         let member = Member { frame, scene };
         let size = [film.width, film.height];
         Some(Ok(Probed {
-            insets: probe::insets(member, stage, stops(job, frame), size),
-            left_out: left_out_warning(member, stage, film),
+            insets: probe::insets(member, aggregate, stops(job, frame), size),
+            left_out: left_out_warning(member, aggregate, film),
         }))
     });
     probed.collect()
@@ -173,7 +173,7 @@ fn encoded(
     Ok((made, record))
 }
 
-/// The files of a frame to where they go, then its record.
+/// Delivers the files of a frame to their destination, then its record.
 fn put(
     job: &mut Job,
     task: &FrameTask,
@@ -245,7 +245,7 @@ fn write_files(
     twice(|| manifest.append(record))
 }
 
-/// A frame is made and cannot be kept; where there is no room, its shot is done with.
+/// Settles a frame that was made but cannot be written; if there is no room, its shot is halted.
 fn unwritten(job: &mut Job, task: &FrameTask, error: &io::Error, settings: &Settings<'_>) {
     job.fail(task, &error.to_string(), settings.progress);
     if is_full(error) {
@@ -262,9 +262,9 @@ fn unwritten(job: &mut Job, task: &FrameTask, error: &io::Error, settings: &Sett
 /// lost; the run must end within 2 s.
 #[derive(Default)]
 struct ShutdownDeadline {
-    /// When the signal was first seen.
+    /// Time when the signal was first seen.
     since: Option<Instant>,
-    /// What the last films took, as many as threads.
+    /// Time that the last films took, as many as threads.
     last: Duration,
 }
 

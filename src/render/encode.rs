@@ -8,7 +8,7 @@ use crate::plot::{LEAST_INSET, Plot, lay_out_inset, raster, svg};
 use crate::scene::Scene;
 use crate::shot::{Depth, Exposure, Format, Inset, Sequence, Track};
 
-/// The files of a frame: extension and content, and how many values had to be clamped.
+/// The files of a frame, and what could not be represented in them.
 pub struct Pictures {
     /// Extension and bytes, in the order of the shot's formats.
     pub files: Vec<(&'static str, Vec<u8>)>,
@@ -23,7 +23,7 @@ pub struct Pictures {
 pub struct PictureInfo<'a> {
     /// Exposure, stops.
     pub exposure_stops: f64,
-    /// Samples a pixel.
+    /// Samples per pixel.
     pub samples: u32,
     /// [`FrameFingerprint::fingerprint`](crate::frame::FrameFingerprint), for pictures that are to be known again.
     pub fingerprint: Option<&'a str>,
@@ -80,10 +80,10 @@ pub fn encode(
     })
 }
 
-/// Draws an inset into a picture of three bytes a pixel.
+/// Draws an inset into an image of three bytes per pixel.
 ///
 /// # Errors
-/// Why it is left out.
+/// The reason why it is left out.
 fn draw(
     frame: &Frame<'_>,
     inset: &Inset,
@@ -121,8 +121,8 @@ fn metadata(frame: &Frame<'_>, scene: &Scene, info: PictureInfo<'_>) -> Metadata
         comments: frame.title.map(str::to_owned),
         frames_per_second: Some(frame.fps),
         // Camera space is the same for every projection. What describes a perspective alone is not
-        // written: no `worldToNDC`, and the screen window that EXR demands stays at its default,
-        // which by the standard is that of pictures without such a description.
+        // written: no `worldToNDC`, and the screen window that EXR demands has its default value,
+        // as the standard prescribes for images without such a description.
         camera_from_world: scene
             .camera
             .camera_from_lab(worldline)
@@ -140,9 +140,10 @@ fn metadata(frame: &Frame<'_>, scene: &Scene, info: PictureInfo<'_>) -> Metadata
     }
 }
 
-/// The shot that this frame alone is rendered again from, beside the original: what moves stands
-/// still, what was metered or asked for is written down. The size is the shot's own, as insets name
-/// its pixels: a picture of another size is rendered by the `--scale` that gives it.
+/// The shot from which this frame alone can be rendered again, saved beside the original: moving
+/// values are fixed, and metered or requested values are written down. The size is the shot's own,
+/// because insets name its pixels; an image of another size is rendered by the `--scale` that gives
+/// it.
 fn still(frame: &Frame<'_>, info: PictureInfo<'_>) -> String {
     let mut still = frame.alone();
     still.sensor.exposure = Exposure::Stops(Track::Constant(info.exposure_stops));
@@ -151,7 +152,7 @@ fn still(frame: &Frame<'_>, info: PictureInfo<'_>) -> String {
     still.to_toml()
 }
 
-/// The window, where a picture is not what an eye would see.
+/// The window, if the image is not what an eye would see.
 fn window_nm(sensor: Sensor) -> Option<[f64; 2]> {
     let eye = Sensor::default();
     ((sensor.color, sensor.window) != (eye.color, eye.window)).then_some(sensor.window)

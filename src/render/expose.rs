@@ -11,7 +11,7 @@ use crate::film::{Film, LeftOut};
 use crate::trace::Samples;
 use rayon::prelude::*;
 
-/// What of the time went into what: the shares add up to 1.
+/// Shares of the time, which add up to 1.
 pub(super) struct Shares {
     pub(super) trace: f64,
     pub(super) shade: f64,

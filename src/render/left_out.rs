@@ -1,4 +1,4 @@
-//! How many bounces leave out next to nothing of an image's light.
+//! The number of bounces beyond which almost none of an image's light is missing.
 
 use super::view::{RelativeMotions, Views};
 use super::{Member, View, channels};
@@ -30,11 +30,11 @@ pub enum Enough {
 /// being one of which `left_out` was left out. Found by a sample of its rays, followed deeper.
 pub fn enough_bounces(
     member: Member<'_>,
-    stage: &Aggregate,
+    aggregate: &Aggregate,
     size: [u32; 2],
     left_out: &LeftOut,
 ) -> Enough {
-    let views = Views::new(member, stage, size[1], &RelativeMotions::default());
+    let views = Views::new(member, aggregate, size[1], &RelativeMotions::default());
     let own = member.frame.effects.bounces;
     for side in SIDES {
         let sample = Sample {
@@ -53,12 +53,12 @@ pub fn enough_bounces(
 }
 
 /// How much of an image's light was not followed, and how many bounces would do; None if it is little.
-pub fn left_out_warning(member: Member<'_>, stage: &Aggregate, film: &Film) -> Option<String> {
+pub fn left_out_warning(member: Member<'_>, aggregate: &Aggregate, film: &Film) -> Option<String> {
     let share = film.left_out.share();
     if share <= SILENT {
         return None;
     }
-    let enough = enough_bounces(member, stage, [film.width, film.height], &film.left_out);
+    let enough = enough_bounces(member, aggregate, [film.width, film.height], &film.left_out);
     let what_would_do = match enough {
         Enough::Bounces(bounces) => {
             let silent = percent(SILENT);

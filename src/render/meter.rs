@@ -8,14 +8,14 @@ use crate::scene::{Library, Scene};
 use crate::shot::{LARGEST_SIDE, Mistakes, Shot};
 use crate::trace::build_aggregate;
 
-/// What metering found, and what it built on the way: frame 1, for whoever renders it next.
+/// Result of metering, with the scene of frame 1, so that rendering it need not repeat the work.
 pub struct Metered {
     /// Exposure in stops; None if the image is black.
     pub stops: Option<f64>,
     /// The scene of frame 1.
     pub scene: Scene,
     /// Its bodies.
-    pub stage: Aggregate,
+    pub aggregate: Aggregate,
 }
 
 /// Exposure metered on a small render of frame 1, whatever frames are asked for.
@@ -25,7 +25,7 @@ pub struct Metered {
 pub fn metered_exposure(shot: &Shot, library: &Library) -> Result<Metered, Mistakes> {
     let frame = Frame::new(shot, 1)?;
     let scene = Scene::resolve(&frame, library, None)?;
-    let stage = build_aggregate(&scene.geometry, None);
+    let aggregate = build_aggregate(&scene.geometry, None);
     let [width, height] = frame.image.size.map(f64::from);
     let rows = (METER_WIDTH * height / width)
         .round()
@@ -36,11 +36,11 @@ pub fn metered_exposure(shot: &Shot, library: &Library) -> Result<Metered, Mista
         samples: 1,
         layers: Vec::new(),
     };
-    let film = render(&frame, &scene, &stage, &options, &|_| ());
+    let film = render(&frame, &scene, &aggregate, &options, &|_| ());
     Ok(Metered {
         stops: auto_exposure(&film),
         scene,
-        stage,
+        aggregate,
     })
 }
 

@@ -43,7 +43,7 @@ impl Prepared {
                 frame.and_then(|frame| Scene::check(frame, &library)).err()
             },
         );
-        // The first, however many threads look.
+        // The first one, on any number of threads.
         if let Some(mistakes) = wrong.find_map_first(|mistakes| mistakes) {
             return Err(mistakes);
         }
@@ -55,21 +55,21 @@ impl Prepared {
     /// the middle or the last frame: the first of these with a Doppler shift.
     pub fn unresolved(&self) -> Vec<Unresolved> {
         let frames = self.shot.shot.frames;
-        let called = [1, frames.div_ceil(2), frames]
+        let effects = [1, frames.div_ceil(2), frames]
             .into_iter()
             .find_map(|number| {
                 let frame = Frame::new(&self.shot, number).ok()?;
-                let called = frame.active_effects(&frame.effects);
-                called.doppler.then_some((frame, called))
+                let effects = frame.active_effects(&frame.effects);
+                effects.doppler.then_some((frame, effects))
             });
-        let Some((frame, called)) = called else {
+        let Some((frame, effects)) = effects else {
             return Vec::new();
         };
         let Ok(scene) = Scene::resolve(&frame, &self.library, None) else {
             return Vec::new();
         };
         let settings = Settings {
-            called: &called,
+            effects: &effects,
             accuracy: &frame.accuracy,
             sensor: &frame.sensor,
             reach: 1.0,
@@ -89,7 +89,7 @@ impl Prepared {
         seen.into_iter().map(line).chain(of_sensor).collect()
     }
 
-    /// How the shot's frames are exposed; and frame 1, where metering had to build it.
+    /// The exposure of the shot's frames; and frame 1, if metering had to build it.
     ///
     /// # Errors
     /// Mistakes of frame 1.
@@ -99,7 +99,7 @@ impl Prepared {
             Exposure::Auto(_) => {
                 let metered = metered_exposure(&self.shot, &self.library)?;
                 let exposing = metered.stops.map_or(Exposing::Black, Exposing::Metered);
-                Ok((exposing, Some((metered.scene, metered.stage))))
+                Ok((exposing, Some((metered.scene, metered.aggregate))))
             }
         }
     }
@@ -108,7 +108,7 @@ impl Prepared {
 /// The exposure of a shot's frames.
 #[derive(Debug, Clone)]
 pub enum Exposing {
-    /// As its author wrote.
+    /// As the author wrote it.
     Authored,
     /// As metered on frame 1, in stops.
     Metered(f64),
@@ -117,7 +117,7 @@ pub enum Exposing {
 }
 
 impl Exposing {
-    /// Stops in one frame.
+    /// Exposure of one frame, in stops.
     pub fn stops(&self, frame: &Frame<'_>) -> f64 {
         match self {
             Self::Authored => frame.exposure_stops.unwrap_or_default(),

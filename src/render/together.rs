@@ -43,48 +43,48 @@ pub struct Together {
 /// When asked to stop.
 pub fn render_together(
     members: &[Member<'_>],
-    stage: &Aggregate,
+    aggregate: &Aggregate,
     options: &Options,
     watch: Watch<'_>,
 ) -> Result<Together, Stopped> {
-    render_all(members, stage, options, watch, None)
+    render_all(members, aggregate, options, watch, None)
 }
 
 /// Renders one image. `done` is told of finished rays, from any thread.
 pub fn render(
     frame: &Frame<'_>,
     scene: &Scene,
-    stage: &Aggregate,
+    aggregate: &Aggregate,
     options: &Options,
     done: &(dyn Fn(u64) + Sync),
 ) -> Film {
     let member = Member { frame, scene };
-    render_one(member, stage, options, done, None)
+    render_one(member, aggregate, options, done, None)
 }
 
 /// [`render`], with its seconds counted in `profile` if there is one, which takes a little longer.
 pub fn render_profiled(
     frame: &Frame<'_>,
     scene: &Scene,
-    stage: &Aggregate,
+    aggregate: &Aggregate,
     options: &Options,
     done: &(dyn Fn(u64) + Sync),
     profile: Option<&Profile>,
 ) -> Film {
     let member = Member { frame, scene };
-    render_one(member, stage, options, done, profile)
+    render_one(member, aggregate, options, done, profile)
 }
 
 /// Renders one image.
 fn render_one(
     member: Member<'_>,
-    stage: &Aggregate,
+    aggregate: &Aggregate,
     options: &Options,
     done: &(dyn Fn(u64) + Sync),
     profile: Option<&Profile>,
 ) -> Film {
     let stop = &AtomicBool::new(false);
-    let rendered = render_all(&[member], stage, options, Watch { done, stop }, profile)
+    let rendered = render_all(&[member], aggregate, options, Watch { done, stop }, profile)
         .expect("nobody else holds what would stop it");
     let film = rendered.films.into_iter().next();
     film.expect("each member has a film")
@@ -92,7 +92,7 @@ fn render_one(
 
 fn render_all(
     members: &[Member<'_>],
-    stage: &Aggregate,
+    aggregate: &Aggregate,
     options: &Options,
     watch: Watch<'_>,
     profile: Option<&Profile>,
@@ -105,7 +105,7 @@ fn render_all(
     let mut rest = members;
     while !rest.is_empty() {
         let begun = Instant::now();
-        let group = prepare(rest, stage, options, watch.stop)?;
+        let group = prepare(rest, aggregate, options, watch.stop)?;
         let (now, later) = rest.split_at(group.len());
         rest = later;
         let film = |member: &Member<'_>| empty_film(options, channels(member.frame.sensor.color));
@@ -129,7 +129,7 @@ fn render_all(
 /// Views of the first member and of as many more as memory allows at once.
 fn prepare<'a>(
     members: &[Member<'a>],
-    stage: &'a Aggregate,
+    aggregate: &'a Aggregate,
     options: &Options,
     stop: &AtomicBool,
 ) -> Result<Vec<Views<'a>>, Stopped> {
@@ -138,7 +138,7 @@ fn prepare<'a>(
         if stop.load(Ordering::Relaxed) {
             return Err(Stopped);
         }
-        Ok(Views::new(*member, stage, options.height, &motions))
+        Ok(Views::new(*member, aggregate, options.height, &motions))
     };
     let Some((first, others)) = members.split_first() else {
         return Ok(Vec::new());

@@ -1,4 +1,4 @@
-//! One image under one set of effects: everything a ray needs.
+//! The view of one image under one set of effects: everything that a ray needs.
 
 use super::Member;
 use crate::accel::Aggregate;
@@ -13,12 +13,12 @@ use std::sync::{Arc, OnceLock};
 /// One image under one set of effects: everything that a ray needs.
 pub struct View<'a> {
     scene: &'a Scene,
-    stage: &'a Aggregate,
-    /// What is simulated.
+    aggregate: &'a Aggregate,
+    /// The effects that are simulated.
     pub effects: ActiveEffects,
     motion: Arc<RelativeMotion>,
     shader: Shader,
-    /// Made when first asked for.
+    /// Made on first use.
     curves: OnceLock<Shader>,
     bounces: u32,
     cutoff: f64,
@@ -33,9 +33,15 @@ impl<'a> View<'a> {
         frame: &Frame<'_>,
         switches: &Effects,
         scene: &'a Scene,
-        stage: &'a Aggregate,
+        aggregate: &'a Aggregate,
     ) -> Self {
-        Self::sharing(&RelativeMotions::default(), frame, switches, scene, stage)
+        Self::sharing(
+            &RelativeMotions::default(),
+            frame,
+            switches,
+            scene,
+            aggregate,
+        )
     }
 
     /// [`View::new`] among images in which worldlines stand to each other as `motions` has it.
@@ -44,12 +50,12 @@ impl<'a> View<'a> {
         frame: &Frame<'_>,
         switches: &Effects,
         scene: &'a Scene,
-        stage: &'a Aggregate,
+        aggregate: &'a Aggregate,
     ) -> Self {
         let effects = frame.active_effects(switches);
-        // Where nothing moves the links are translations, which cost nothing; light still takes
-        // its time to the camera.
-        let motion = motions.under(switches.geometry, scene, stage);
+        // If nothing moves, the links are translations, which cost nothing; light still takes its
+        // time to the camera.
+        let motion = motions.under(switches.geometry, scene, aggregate);
         let bounces = if effects.mirror || effects.refraction {
             switches.bounces
         } else {
@@ -58,7 +64,7 @@ impl<'a> View<'a> {
         // Between two bodies D is at most the square of what it is between either and the camera.
         let hops = 1.0 + 2.0 * f64::from(bounces);
         let settings = Settings {
-            called: &effects,
+            effects: &effects,
             accuracy: &frame.accuracy,
             sensor: &frame.sensor,
             reach: hops * motion.to_camera,
@@ -69,7 +75,7 @@ impl<'a> View<'a> {
         Self {
             reaches,
             scene,
-            stage,
+            aggregate,
             effects,
             motion,
             shader,
@@ -94,7 +100,7 @@ impl<'a> View<'a> {
     pub fn eye(&self, frame: &Frame<'_>) -> Shader {
         let [reach, lamp_reach] = self.reaches;
         let settings = Settings {
-            called: &self.effects,
+            effects: &self.effects,
             accuracy: &frame.accuracy,
             sensor: &Sensor {
                 color: SensorColor::Cie1931,
@@ -106,8 +112,7 @@ impl<'a> View<'a> {
         Shader::new(self.scene, &settings)
     }
 
-    /// The shader of curves over the sensor's own window, made once for all pixels that are asked
-    /// about.
+    /// The shader of curves over the sensor's own window, made once for all pixels.
     pub fn curves(&self, frame: &Frame<'_>) -> &Shader {
         self.curves
             .get_or_init(|| self.shader_over(frame.sensor.window, frame.accuracy.wavelengths))
@@ -117,7 +122,7 @@ impl<'a> View<'a> {
     /// evaluated as their author wrote them, so that no baking shows at any wavelength or shift.
     pub fn shader_over(&self, window_nm: [f64; 2], wavelengths: u32) -> Shader {
         let settings = Settings {
-            called: &self.effects,
+            effects: &self.effects,
             accuracy: &Accuracy {
                 spectra: Spectra::Exact,
                 wavelengths,
@@ -134,7 +139,7 @@ impl<'a> View<'a> {
         Shader::new(self.scene, &settings)
     }
 
-    /// How its worldlines stand to each other.
+    /// Relative motion of its worldlines.
     pub fn spacetime(&self) -> &Spacetime {
         &self.motion.spacetime
     }
@@ -148,7 +153,7 @@ impl<'a> View<'a> {
     pub fn tracer(&self) -> Tracer<'_> {
         Tracer {
             scene: self.scene,
-            aggregate: self.stage,
+            aggregate: self.aggregate,
             spacetime: self.spacetime(),
             shadows: self.effects.shadows,
             bounces: self.bounces,
@@ -182,10 +187,10 @@ impl<'a> View<'a> {
     }
 }
 
-/// How the worldlines of a scene stand to each other.
+/// Relative motion of the worldlines of a scene.
 struct RelativeMotion {
     spacetime: Spacetime,
-    /// Largest |ln D| of any worldline to the camera's.
+    /// Largest |ln D| of any worldline relative to the camera's.
     to_camera: f64,
     /// Largest |ln D| between any body and any lamp.
     to_lamps: f64,
@@ -200,7 +205,7 @@ pub(super) struct RelativeMotions {
 }
 
 impl RelativeMotions {
-    fn under(&self, geometry: Switch, scene: &Scene, stage: &Aggregate) -> Arc<RelativeMotion> {
+    fn under(&self, geometry: Switch, scene: &Scene, aggregate: &Aggregate) -> Arc<RelativeMotion> {
         let made = match geometry {
             Switch::Auto => &self.finite,
             Switch::Off => &self.snapshot,
@@ -214,7 +219,7 @@ impl RelativeMotions {
                     scene.camera.worldline,
                     0..scene.worldlines.len(),
                 ),
-                to_lamps: stage
+                to_lamps: aggregate
                     .worldlines()
                     .map(|body| largest_rapidity(scene, body, lamps()))
                     .fold(0.0, f64::max),
@@ -247,12 +252,12 @@ impl<'a> Views<'a> {
     /// Prepares an image of `height` rows.
     pub(super) fn new(
         member: Member<'a>,
-        stage: &'a Aggregate,
+        aggregate: &'a Aggregate,
         height: u32,
         motions: &RelativeMotions,
     ) -> Self {
         let Member { frame, scene } = member;
-        let view = |switches: &Effects| View::sharing(motions, frame, switches, scene, stage);
+        let view = |switches: &Effects| View::sharing(motions, frame, switches, scene, aggregate);
         let splices = frame.splices.iter();
         Self {
             whole: view(&frame.effects),

@@ -1,4 +1,4 @@
-//! An animated PNG: every frame with all its colours. W3C, Portable Network Graphics (Third
+//! An animated PNG: every frame with all its colors. W3C, Portable Network Graphics (Third
 //! Edition), 2025: acTL, fcTL, fdAT.
 
 use super::frame_image::FrameImage;
@@ -6,14 +6,15 @@ use super::output::Encoder;
 use crate::store::{AtomicFile, AtomicWriter};
 use std::path::PathBuf;
 
-/// An animation in the making.
+/// An animation being written.
 pub(super) struct Apng {
     file: AtomicFile,
     writer: png::Writer<AtomicWriter>,
 }
 
 impl Apng {
-    /// Begins one of so many frames, `rate` of them a second as a fraction; it plays forever.
+    /// Begins an animation of this many frames, `rate` of them per second as a fraction; it loops
+    /// forever.
     pub(super) fn new(
         file: AtomicFile,
         [width, height]: [u32; 2],
@@ -48,8 +49,8 @@ impl Encoder for Apng {
     }
 }
 
-/// Seconds of a frame as a fraction of 16 bits: exact where it fits, else to 10⁻³ of it or to what
-/// 16 bits can hold.
+/// Seconds of a frame as a fraction of 16 bits: exact if it fits, else to 10⁻³ of it or to what 16
+/// bits can hold.
 fn delay((numerator, denominator): (i32, u32)) -> (u16, u16) {
     let (rate, over) = (f64::from(numerator), f64::from(denominator));
     let shrink = (rate.max(over) / f64::from(u16::MAX)).max(1.0);

@@ -1,7 +1,7 @@
 //! Sheets, animations and videos of a shot's frames, all in one pass over them.
 //!
-//! Nothing is made of a sequence in which a frame is missing or wrong. Memory is bounded by a
-//! picture a thread, a row of the sheet and a palette, however long the sequence is.
+//! Nothing is made of a sequence in which a frame is missing or wrong. Memory is bounded by one
+//! image per thread, a row of the sheet and a palette, however long the sequence is.
 
 use super::apng::Apng;
 use super::findings::{Finding, Kind};
@@ -21,10 +21,10 @@ use crate::store::{AtomicFile, FolderError, ShotFolder, Status};
 use rayon::prelude::*;
 use std::path::PathBuf;
 
-/// Findings that a message quotes.
+/// Number of findings that a message quotes.
 const QUOTED: usize = 8;
 
-/// Why not all was assembled.
+/// Reason why not everything was assembled.
 #[derive(Debug, thiserror::Error)]
 pub enum AssembleError {
     /// Frames are missing or wrong.
@@ -33,21 +33,21 @@ pub enum AssembleError {
         quoted(.0)
     )]
     Refused(Vec<Finding>),
-    /// A frame that was sound a moment ago.
+    /// A frame cannot be read, although it was sound before.
     #[error("nothing is assembled: {0}")]
     FrameImage(#[from] FrameImageError),
     /// The folder cannot be read.
     #[error(transparent)]
     Folder(#[from] FolderError),
-    /// It was asked to stop. What was made until then is whole.
+    /// The user asked to stop. Files made until then are complete.
     #[error("stopped")]
     Stopped,
     /// Some files were made and others not.
     #[error("{}", .failures.join("; "))]
     Some {
-        /// What was made.
+        /// Files that were made.
         made: Vec<PathBuf>,
-        /// What was not, each as `FILE: WHY`.
+        /// Files that were not, each as `FILE: WHY`.
         failures: Vec<String>,
     },
 }
@@ -63,11 +63,11 @@ fn quoted(findings: &[Finding]) -> String {
     words.join("; ")
 }
 
-/// Assembles all that a shot asks for, be it there already or not; returns the files. `notes` is
-/// told what one should know. Asked to stop, it ends soon and leaves nothing that is not whole.
+/// Assembles everything that a shot asks for, even if it is there already, and returns the files.
+/// `notes` receives warnings. If asked to stop, it ends soon and leaves only complete files.
 ///
 /// # Errors
-/// When a frame is missing or wrong nothing is made; when a file cannot be made the others are.
+/// If a frame is missing or wrong, nothing is made; if one file cannot be made, the others are.
 pub fn assemble(
     shot_folder: &ShotFolder,
     notes: &dyn Fn(&str),
@@ -81,9 +81,9 @@ pub fn assemble(
     )
 }
 
-/// Assembles, at the end of a shot's rendering, what is not there or is of other frames; nothing
-/// while frames are missing, as others may be at work on them. The caller holds the claim on the
-/// shot's sequence, so that no two processes do this at once.
+/// Assembles, at the end of a shot's rendering, the files that are missing or made from other
+/// frames. Nothing is made while frames are missing, since other processes may be rendering them.
+/// The caller holds the claim on the shot's sequence, so that no two processes do this at once.
 ///
 /// # Errors
 /// As [`assemble`].
@@ -101,7 +101,7 @@ pub fn is_finished(shot_folder: &ShotFolder) -> bool {
     outstanding(shot_folder).is_empty()
 }
 
-/// What is asked for and not there, if it can be made.
+/// The files that are asked for, can be made, and are not there.
 fn outstanding(shot_folder: &ShotFolder) -> Vec<Output> {
     let mut outputs = Output::of(&shot_folder.shot().sequence);
     outputs.retain(|output| !freshness::is_fresh(shot_folder, *output));
@@ -111,7 +111,7 @@ fn outstanding(shot_folder: &ShotFolder) -> Vec<Output> {
     outputs
 }
 
-/// Whether all frames are there as they should be.
+/// Whether all frames are there and up to date.
 fn is_rendered(shot_folder: &ShotFolder) -> bool {
     let (there, frames) = (shot_folder.there(), shot_folder.shot().shot.frames);
     let fresh =
@@ -119,8 +119,8 @@ fn is_rendered(shot_folder: &ShotFolder) -> bool {
     there.len() as u64 == u64::from(frames) && there.par_iter().all(fresh)
 }
 
-/// What a shot asks for and cannot get of images of a size, whatever they show: known before the
-/// first is rendered.
+/// The outputs that a shot asks for but that images of this size cannot give, known before
+/// rendering.
 pub fn foreseen(shot: &Shot, size: [u32; 2]) -> Option<String> {
     shot.sequence.sheet?;
     let splices = Splices::new(shot, size);
@@ -179,7 +179,7 @@ impl Making<'_> {
         let mut failures = Vec::new();
         for (output, target) in begun {
             let finished = target.and_then(Encoder::finish);
-            // What was stopped has not failed.
+            // A stop is not a failure.
             self.go_on()?;
             match finished {
                 Ok(path) => {
@@ -257,7 +257,7 @@ impl Making<'_> {
         })
     }
 
-    /// The colours of the sequence, by some of its frames.
+    /// The colors of the sequence, from some of its frames.
     fn palette(&self) -> Result<Palette, AssembleError> {
         let frames = self.shot_folder.shot().shot.frames;
         let step = frames.div_ceil(gif::SAMPLED_FRAMES).max(1);
@@ -272,7 +272,7 @@ impl Making<'_> {
         Ok(Palette::new(samples))
     }
 
-    /// Hands every frame to every file that has not failed.
+    /// Passes every frame to every file that has not failed.
     fn feed(&self, begun: &mut [Begun]) -> Result<(), AssembleError> {
         let numbers: Vec<u32> = (1..=self.shot_folder.shot().shot.frames).collect();
         let (shot_folder, splices) = (self.shot_folder, &self.splices);

@@ -1,5 +1,4 @@
-//! Another program at work for us: ended when nobody waits for it any more, or when this process is
-//! asked to stop.
+//! A child process, killed on drop or when the run is stopped.
 
 use crate::queue::Stop;
 use std::io::{self, Read, Write};
@@ -9,10 +8,10 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::thread::{self, JoinHandle};
 use std::time::Duration;
 
-/// Lines of what a program said last that are quoted.
+/// Number of lines of a program's last output that a message quotes.
 const QUOTED: usize = 4;
 
-/// Between two looks at whether a program has ended, or has to.
+/// Time between two checks whether a program has ended or has to.
 const PAUSE: Duration = Duration::from_millis(10);
 
 /// A running program.
@@ -28,7 +27,7 @@ struct Shared {
 }
 
 impl ChildProcess {
-    /// Starts one, whose standard streams are pipes.
+    /// Starts a program with pipes as its standard streams.
     pub(super) fn start(command: &mut Command, stop: &Stop) -> io::Result<Self> {
         let mut child = command
             .stdin(Stdio::piped())
@@ -48,7 +47,7 @@ impl ChildProcess {
             over: AtomicBool::new(false),
         });
         let (watched, stop) = (Arc::clone(&shared), stop.clone());
-        // Whoever writes to the program, or waits for its end, may be held up by it.
+        // Writing to the program, or waiting for its end, may block this thread.
         thread::spawn(move || {
             while !watched.over.load(Ordering::Relaxed) {
                 if stop.asked().load(Ordering::Relaxed) {
@@ -60,7 +59,7 @@ impl ChildProcess {
         Ok(Self { shared, pipe, said })
     }
 
-    /// Hands it bytes.
+    /// Writes to its standard input.
     pub(super) fn write(&mut self, bytes: &[u8]) -> io::Result<()> {
         match &mut self.pipe {
             Some(pipe) => pipe.write_all(bytes),
@@ -68,15 +67,15 @@ impl ChildProcess {
         }
     }
 
-    /// What it prints, once.
+    /// Its standard output. Can be taken once.
     pub(super) fn stdout(&self) -> Option<ChildStdout> {
         self.shared.child().stdout.take()
     }
 
-    /// Tells it that there is no more, and waits for its end.
+    /// Closes its standard input and waits for its end.
     ///
     /// # Errors
-    /// Unless it ends well: how it ended, and the last that it said.
+    /// How it ended, with the last lines that it printed, unless it succeeded.
     pub(super) fn end(&mut self) -> Result<(), String> {
         drop(self.pipe.take());
         let status = loop {
@@ -106,7 +105,7 @@ impl Shared {
     }
 
     fn kill(&self) {
-        // Of one that has ended there is nothing to end.
+        // If it has ended already, this fails, which does not matter.
         let _ended = self.child().kill();
     }
 }

@@ -1,41 +1,42 @@
-//! Frames that do not fit between their neighbours: black, shifted or garbled ones.
+//! Discontinuities: frames that do not fit between their neighbors, because they are black, shifted
+//! or garbled.
 //!
-//! Frames are compared as grids of at most 64 × 64 means of the values that are shown, and the
-//! distance of two grids is the root of the mean square. With x the grids, the difference of frame
-//! i is d = |x(i) − ½(x(i−1) + x(i+1))|. It is judged by what interpolation misses here without
-//! frame i: the smaller of |x(i−1) − ⅔x(i−2) − ⅓x(i+1)| and its mirror image, and the median of d in
-//! the frames 2 to 4 away. The first frame is judged by extrapolation, 2d of the second against 2d
-//! of the third, and the last likewise.
+//! Frames are compared as grids of at most 64 × 64 means of the displayed values; the distance of
+//! two grids is the root of the mean square. With x the grids, the difference of frame i is d =
+//! |x(i) − ½(x(i−1) + x(i+1))|. It is compared with the error of interpolation here without frame
+//! i: the smaller of |x(i−1) − ⅔x(i−2) − ⅓x(i+1)| and its mirror image, and the median of d in the
+//! frames 2 to 4 away. The first frame is judged by extrapolation, 2d of the second against 2d of
+//! the third, and the last likewise.
 //!
-//! A cut, the kink where a ramp begins, and a value that turns back have a d of 1.5 times the
-//! smaller of the two (½ against ⅓ of the step; 1 against ⅔ where it turns back), edges that move
-//! evenly 0.87 times, a parabola 0.5 times; a frame that alone is wrong has nothing to be judged by
-//! but what moves around it. So [`FACTOR`] is twice the worst of what sequences do. What d can be by
-//! rounding alone is one level of 255, [`LEVEL`].
+//! A cut, the kink at the beginning of a ramp, and a value that turns back have a d of 1.5 times
+//! the smaller of the two (½ against ⅓ of the step; 1 against ⅔ where it turns back), edges that
+//! move evenly 0.87 times, a parabola 0.5 times; a single wrong frame has nothing to compare with
+//! but the motion around it. So [`FACTOR`] is twice the worst of what sequences do. Rounding alone
+//! can make d one level of 255, [`LEVEL`].
 //!
-//! Weak where: two bad frames stand side by side (they look like two cuts), or something flashes for
-//! one frame as its author meant it, which is for the caller to know.
+//! Weak if two bad frames are adjacent (they look like two cuts), and if the author meant something
+//! to flash for one frame, which the caller has to know.
 
 use std::collections::VecDeque;
 
-/// Times what interpolation misses without the frame.
+/// Ratio to the error of interpolation without the frame.
 pub(super) const FACTOR: f64 = 3.0;
 
 /// One level of the 8-bit values.
 pub(super) const LEVEL: f64 = 1.0 / 255.0;
 
-/// Most cells on a side of a grid.
+/// Number of cells on a side of a grid at most.
 const CELLS: usize = 64;
 
-/// How far away the differences are that the median is taken of.
+/// Distances, in frames, of the differences whose median is taken.
 const REACH: std::ops::RangeInclusive<usize> = 2..=4;
 
-/// A picture's means over the cells of a grid, 0 to 1.
+/// An image's means over the cells of a grid, 0 to 1.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Grid(Vec<f32>);
 
 impl Grid {
-    /// The grid of a picture of three bytes a pixel, `width` of them in a row.
+    /// The grid of an image of three bytes per pixel and `width` pixels per row.
     pub(super) fn new(rgb8: &[u8], width: usize) -> Self {
         let rows = rgb8.chunks_exact(width.max(1) * 3);
         let height = rows.len();
@@ -58,7 +59,7 @@ impl Grid {
     }
 }
 
-/// |Σ weight · grid|, the root of the mean square; none if a grid is not there.
+/// |Σ weight · grid|, as root of the mean square; None if a grid is missing.
 fn distance<const N: usize>(terms: [(f32, &Option<Grid>); N]) -> Option<f64> {
     let mut sum = vec![0.0_f32; terms[0].1.as_ref()?.0.len()];
     for (weight, grid) in terms {
@@ -70,41 +71,41 @@ fn distance<const N: usize>(terms: [(f32, &Option<Grid>); N]) -> Option<f64> {
     Some((squares / sum.len().max(1) as f64).sqrt())
 }
 
-/// A frame that does not fit.
+/// A frame that does not fit between its neighbours.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Discontinuity {
     /// Its number.
     pub(super) frame: u32,
-    /// How far it is from what its neighbours say, 0 to 1.
+    /// Its difference from what its neighbors predict, 0 to 1.
     pub(super) difference: f64,
-    /// How far others around are.
+    /// The difference of others around it.
     pub(super) usual: f64,
 }
 
-/// Differences of a sequence's frames; of the frames themselves four are kept.
+/// Differences of a sequence's frames. Only four frames are kept.
 #[derive(Debug, Default)]
 pub(super) struct Differences {
     last: VecDeque<Option<Grid>>,
     count: usize,
-    /// The numbers of the frames, but for those in the midst of long gaps.
+    /// Numbers of the frames, except those in the middle of long gaps.
     frames: Vec<u32>,
     /// d of each frame.
     plain: Vec<Option<f64>>,
-    /// What interpolation misses in the frame before without this one, and in the frame after.
+    /// Errors of interpolation in the frame before without this one, and in the frame after.
     before: Vec<Option<f64>>,
     after: Vec<Option<f64>>,
 }
 
 impl Differences {
-    /// Takes frame number `frame`, above those before; no grid if it cannot be shown.
+    /// Adds frame number `frame`, which follows those before; None if it has no grid.
     pub(super) fn push(&mut self, frame: u32, grid: Option<Grid>) {
         self.end(frame - 1);
         self.frames.push(frame);
         self.take(grid);
     }
 
-    /// There are no more frames up to number `frame`. What is farther away than any frame is judged by
-    /// need not be counted.
+    /// Ends the sequence at frame number `frame`. Frames farther away than any frame is compared
+    /// with need not be counted.
     pub(super) fn end(&mut self, frame: u32) {
         const FAR: u32 = *REACH.end() as u32 + 1;
         let before = self.frames.last().copied().unwrap_or(0);

@@ -1,5 +1,4 @@
-//! Findings: what is wrong with a shot's frames and with the files beside them, and the runs of frames
-//! that are missing.
+//! Findings: faults of a shot's frames and of the files beside them; and runs of missing frames.
 
 use super::output::{OUTPUTS, Output};
 use crate::store::{PAGE, ShotFolder};
@@ -7,53 +6,53 @@ use serde::Serialize;
 use std::fs;
 use std::ops::RangeInclusive;
 
-/// What kind of thing is wrong.
+/// Kind of a fault.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Kind {
-    /// A file is not there.
+    /// A file is missing.
     Missing,
-    /// It is there, but made of something else than it should be.
+    /// A file exists but was made from other inputs.
     Stale,
-    /// It cannot be decoded to its end.
+    /// A file cannot be decoded to its end.
     Undecodable,
     /// Its bytes are not those that were written.
     Changed,
-    /// It has another size, pixels.
+    /// An image has another size, pixels.
     WrongSize,
-    /// It has values that are NaN or infinite.
+    /// An image has values that are NaN or infinite.
     NotFinite,
-    /// It does not fit between its neighbours.
+    /// An image does not fit between its neighbors.
     Outlier,
     /// A file that does not belong to the shot as it is.
     Orphan,
 }
 
 impl Kind {
-    /// Whether nothing can be assembled of a sequence with such a finding.
+    /// Whether such a finding keeps a sequence from being assembled.
     pub fn forbids_assembling(self) -> bool {
         !matches!(self, Self::Outlier | Self::Orphan)
     }
 }
 
-/// One thing that is wrong.
+/// One fault.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct Finding {
-    /// The frame's number; none if the file is no frame's of this shot.
+    /// The frame number; None if the file belongs to no frame of this shot.
     pub frame: Option<u32>,
-    /// The last of a run of frames of which it is said, the file being that of the first.
+    /// Last frame of a run with this fault; the file is that of the first.
     #[serde(skip)]
     pub last: Option<u32>,
     /// The file's name in the folder.
     pub file: String,
-    /// What kind of thing it is.
+    /// Kind of the fault.
     pub kind: Kind,
-    /// What exactly.
+    /// Details.
     pub why: String,
 }
 
 impl Finding {
-    /// The frames of which it is said; none if it is of no frame of this shot.
+    /// The frames with this fault; None if it belongs to no frame of this shot.
     pub fn frames(&self) -> Option<RangeInclusive<u32>> {
         let first = self.frame?;
         Some(first..=self.last.unwrap_or(first))
@@ -66,17 +65,17 @@ impl std::fmt::Display for Finding {
     }
 }
 
-/// All that is wrong with a shot's frames.
+/// All faults of a shot's frames.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Report {
-    /// How many frames the shot has.
+    /// Number of frames of the shot.
     pub frames: u32,
     /// Sorted by frame; findings without a frame come last.
     pub findings: Vec<Finding>,
 }
 
 impl Report {
-    /// How many frames have nothing wrong with them.
+    /// Number of frames without faults.
     pub fn sound(&self) -> u32 {
         let mut unsound: Vec<_> = self.findings.iter().filter_map(Finding::frames).collect();
         unsound.sort_unstable_by_key(|frames| *frames.start());
@@ -96,13 +95,14 @@ impl Report {
     }
 }
 
-/// Frames in a row that are told one by one; longer runs are told as one.
+/// Number of consecutive frames up to which each is listed by itself; longer runs are listed as
+/// one.
 pub(super) const SINGLY: u32 = 12;
 
-/// Frames in a row.
+/// Consecutive frames.
 pub(super) type Run = RangeInclusive<u32>;
 
-/// How many there are in a run.
+/// Number of frames in a run.
 pub(super) fn count(run: &Run) -> u32 {
     run.end() - run.start() + 1
 }
@@ -120,8 +120,8 @@ pub(super) fn gaps(there: impl IntoIterator<Item = u32>, frames: u32) -> Vec<Run
     runs
 }
 
-/// Files in a shot's folder that no longer belong to it, by name: frames beyond its end or of another
-/// format, what is no longer assembled, and what a killed run left.
+/// Files in a shot's folder that no longer belong to it, by name: frames beyond its end or of
+/// another format, outputs that are no longer assembled, leftovers of killed runs.
 pub(super) fn unknown_files(shot_folder: &ShotFolder) -> Vec<Finding> {
     let Ok(entries) = fs::read_dir(&shot_folder.path) else {
         return Vec::new();
@@ -142,7 +142,7 @@ pub(super) fn unknown_files(shot_folder: &ShotFolder) -> Vec<Finding> {
     names.into_iter().filter_map(orphan).collect()
 }
 
-/// Why a file is none of the shot's; none if it is, or if it is none of ours.
+/// The reason why a file does not belong to the shot; None if it does, or is not one of ours.
 fn why(shot_folder: &ShotFolder, file: &str) -> Option<String> {
     let names = &shot_folder.names;
     if file == PAGE && !shot_folder.shot().sequence.page {

@@ -1,5 +1,5 @@
-//! The end of a shot's rendering: files made of its frames, and the page about them, by one process at
-//! a time.
+//! The end of a shot's rendering: files assembled from its frames, and the page about them, by one
+//! process at a time.
 
 use super::assemble::{AssembleError, assemble, finish, is_finished};
 use super::page::{self, Outcomes};
@@ -10,15 +10,15 @@ use std::path::PathBuf;
 use std::thread::sleep;
 use std::time::Duration;
 
-/// Something of a shot could not be made; what, and why, has been reported.
+/// Some output of a shot could not be made. The reason has been reported.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Unfinished;
 
-/// Assembles what a finished job of a run asks for, if all its frames are there, and writes its page;
-/// nothing of it where it is there already. Ends soon when asked to stop.
+/// Assembles what a finished job asks for, if all its frames are there, and writes its page;
+/// whatever is up to date is left. Ends soon if asked to stop.
 ///
 /// # Errors
-/// When something cannot be made.
+/// If something cannot be made.
 pub fn finish_shot(job: &mut Job, progress: &Progress<'_>, stop: &Stop) -> Result<(), Unfinished> {
     if !job.folder.path.is_dir() {
         return Ok(());
@@ -33,12 +33,12 @@ pub fn finish_shot(job: &mut Job, progress: &Progress<'_>, stop: &Stop) -> Resul
         .map_err(|error| report(&error.to_string()))?;
     let has_page =
         |job: &Job| !job.folder.shot().sequence.page || page::is_fresh(&job.folder, &job.outcomes);
-    // Before the claim, for which a disk must be writable.
+    // Checked before the claim, which needs a writable disk.
     if is_finished(&job.folder) && has_page(job) || job.is_halted() {
         return Ok(());
     }
     let claim = match wait_for_claim(&job.folder, stop) {
-        // All that this run would do is tell the same on another page.
+        // The run would only write the same facts to another page.
         Err(error) if is_finished(&job.folder) && kept_all(&job.outcomes) => {
             progress.warn(&format!("{shot}: the page is not renewed: {error}"));
             return Ok(());
@@ -75,20 +75,20 @@ pub fn finish_shot(job: &mut Job, progress: &Progress<'_>, stop: &Stop) -> Resul
     done
 }
 
-/// What could be made of a shot's frames, and why the rest could not.
+/// Files that could be assembled, and reasons for the others.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Assembled {
     /// Files that were made.
     pub made: Vec<PathBuf>,
-    /// Why others were not.
+    /// Reasons why others were not.
     pub failures: Vec<String>,
 }
 
-/// Assembles all that a shot asks for, and its page, be it there already or not. `notes` is told what
-/// one should know. Asked to stop, it ends soon and leaves nothing that is not whole.
+/// Assembles everything that a shot asks for, and its page, even if it is there already. `notes`
+/// receives warnings. If asked to stop, it ends soon and leaves only complete files.
 ///
 /// # Errors
-/// When the shot cannot be claimed, e.g. since another process is assembling it.
+/// If the shot cannot be claimed, for example since another process is assembling it.
 pub fn assemble_all(
     folder: &ShotFolder,
     notes: &dyn Fn(&str),
@@ -101,7 +101,7 @@ pub fn assemble_all(
             ..Assembled::default()
         });
     }
-    // What a killed process left.
+    // Leftovers of a killed process.
     sweep(&folder.path, &folder.names);
     let claim = Claim::take(&folder.path, &folder.names, SEQUENCE);
     match claim.map_err(|error| error.to_string())? {
@@ -137,7 +137,7 @@ fn make_all(folder: &ShotFolder, notes: &dyn Fn(&str), stop: &Stop) -> Assembled
     all
 }
 
-/// The claim on the sequence, which another process gives up soon; None if asked to stop.
+/// Waits for the claim on the sequence; None if the run was stopped.
 fn wait_for_claim(folder: &ShotFolder, stop: &Stop) -> Result<Option<Claim>, String> {
     const PAUSE: Duration = Duration::from_millis(50);
     while !stop.is_asked() {

@@ -7,18 +7,18 @@ use crate::shot::{Format, Shot};
 use crate::store::ShotFolder;
 use std::path::PathBuf;
 
-/// A picture of 8 bits a channel, sRGB, as the PNG has it.
+/// An image of 8 bits per channel, sRGB, as in the PNG.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct FrameImage {
-    /// Pixels in a row.
+    /// Width in pixels.
     pub width: u32,
-    /// Rows.
+    /// Height in pixels.
     pub height: u32,
-    /// Three bytes a pixel, row by row from the top.
+    /// Three bytes per pixel, row by row from the top.
     pub rgb8: Vec<u8>,
 }
 
-/// A frame that cannot be shown.
+/// A frame that cannot be read.
 #[derive(Debug, thiserror::Error)]
 #[error("frame {frame}: {}: {why}", file.display())]
 pub struct FrameImageError {
@@ -26,12 +26,12 @@ pub struct FrameImageError {
     pub frame: u32,
     /// The file.
     pub file: PathBuf,
-    /// What is wrong with it.
+    /// The reason.
     pub why: String,
 }
 
-/// Reads a frame from its PNG; where none is written from its EXR, by the same transfer that a PNG
-/// has. It must have the size that the folder asks for.
+/// Reads a frame from its PNG or, if none is written, from its EXR, with the transfer that a PNG
+/// has. It must have the size that the folder expects.
 ///
 /// # Errors
 /// A file that is missing, broken or of another size.
@@ -57,7 +57,7 @@ pub fn read(shot_folder: &ShotFolder, frame: u32) -> Result<FrameImage, FrameIma
     }
 }
 
-/// The extension of the files that frames are shown from.
+/// The extension of the files from which frames are shown.
 pub(super) fn shown_extension(shot: &Shot) -> &'static str {
     if shot.output.formats.contains(&Format::Png) {
         "png"
@@ -74,14 +74,14 @@ pub(super) fn decode_as(
     size: [u32; 2],
 ) -> Result<Decoded, Fault> {
     match extension {
-        // An EXR holds exposed light: of the development the transfer is left to do.
+        // An EXR holds exposed light: only the transfer is left of development.
         "exr" => decode::exr(bytes, size, development(shot.sensor.color, 0.0).encode),
         _ => decode::png(bytes, size),
     }
 }
 
-/// An image at another size, no side of it larger than before: each pixel is the mean, in linear
-/// light, over the area that it covers. An image of that size stays as it is.
+/// An image at another size, never enlarged: each pixel is the mean, in linear light, over the area
+/// that it covers. An image of that size already is unchanged.
 pub(super) fn reduce(image: &FrameImage, width: u32, height: u32) -> FrameImage {
     if [width, height] == [image.width, image.height] {
         return image.clone();
@@ -118,8 +118,7 @@ pub(super) fn reduce(image: &FrameImage, width: u32, height: u32) -> FrameImage 
     }
 }
 
-/// The old pixels that new pixel `index` of `new` covers of `old`, with the shares that they have in
-/// it; these add up to 1.
+/// The pixels of `old` that pixel `index` of `new` covers, with their shares, which add up to 1.
 fn shares(index: u32, new: u32, old: u32) -> impl Iterator<Item = (u32, f32)> {
     let scale = f64::from(old) / f64::from(new);
     let (from, to) = (f64::from(index) * scale, f64::from(index + 1) * scale);

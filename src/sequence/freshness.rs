@@ -1,5 +1,5 @@
-//! Whether files made of frames are still of the frames that are there, by STEM.sequence.jsonl beside
-//! the manifest: a line for each file that was made, with a hash of all that it was made of.
+//! Freshness of files made from frames, recorded in STEM.sequence.jsonl beside the manifest: a line
+//! for each file that was made, with a hash of all its inputs.
 
 use super::output::Output;
 use crate::frame::Caption;
@@ -19,14 +19,14 @@ const EPOCH: u32 = 1;
 struct Line {
     /// Its name.
     assembled: String,
-    /// Hash of all that it was made of.
+    /// Hash of all its inputs.
     key: String,
     /// BLAKE3 of the file.
     blake3: String,
 }
 
-/// Hash of all that a file is made of: its keys in [sequence], what it tells of the shot, and the
-/// frames' fingerprints.
+/// Hash of all inputs of a file: its keys in [sequence], the facts about the shot that it shows,
+/// and the frames' fingerprints.
 fn key(shot_folder: &ShotFolder, output: Output) -> String {
     let shot = shot_folder.shot();
     let frames = 1..=shot.shot.frames;
@@ -67,19 +67,19 @@ fn path(shot_folder: &ShotFolder) -> PathBuf {
         .join(shot_folder.names.assembled("sequence.jsonl"))
 }
 
-/// Whether the file is there as it was assembled of just these frames.
+/// Whether the file exists as it was assembled from exactly these frames.
 pub(super) fn is_fresh(shot_folder: &ShotFolder, output: Output) -> bool {
     let name = shot_folder.names.assembled(output.suffix());
     holds(shot_folder, &name, || key(shot_folder, output))
 }
 
-/// Remembers that the file was assembled of the shot's frames.
+/// Records that the file was assembled from the shot's frames.
 pub(super) fn remember_output(shot_folder: &ShotFolder, output: Output) -> io::Result<()> {
     let name = shot_folder.names.assembled(output.suffix());
     remember(shot_folder, &name, key(shot_folder, output))
 }
 
-/// Whether a file of this name is there as it was made of what has this key.
+/// Whether a file of this name exists as it was made from inputs with this key.
 pub(super) fn holds(shot_folder: &ShotFolder, name: &str, key: impl Fn() -> String) -> bool {
     let mut last = None;
     let _unread = each_line(&path(shot_folder), |line| {
@@ -95,7 +95,7 @@ pub(super) fn holds(shot_folder: &ShotFolder, name: &str, key: impl Fn() -> Stri
     })
 }
 
-/// Remembers of what a file of this name was made.
+/// Records the inputs of a file of this name.
 pub(super) fn remember(shot_folder: &ShotFolder, name: &str, key: String) -> io::Result<()> {
     let line = Line {
         key,

@@ -1,4 +1,4 @@
-//! An animated GIF: 256 colours, one palette for all frames. CompuServe, GIF89a (1990); loops by the
+//! An animated GIF: 256 colors, one palette for all frames. CompuServe, GIF89a (1990); loops by the
 //! Netscape 2.0 extension.
 
 use super::frame_image::FrameImage;
@@ -7,16 +7,16 @@ use super::palette::Palette;
 use crate::store::{AtomicFile, AtomicWriter};
 use std::path::PathBuf;
 
-/// Most frames a second that viewers show: faster ones they slow to 10.
+/// Highest frame rate that viewers show; they slow faster ones down to 10 per second.
 pub(super) const FASTEST: f64 = 50.0;
 
-/// Frames that the palette is made of, at most.
+/// Number of frames from which the palette is made at most.
 pub(super) const SAMPLED_FRAMES: u32 = 32;
 
-/// Pixels that the palette is made of, at most, of all frames.
+/// Number of pixels, of all frames, from which the palette is made at most.
 const SAMPLED_PIXELS: usize = 1 << 19;
 
-/// An animation in the making.
+/// An animation being written.
 pub(super) struct Gif {
     file: AtomicFile,
     encoder: gif::Encoder<AtomicWriter>,
@@ -25,17 +25,17 @@ pub(super) struct Gif {
     fps: f64,
 }
 
-/// Every so many pixels of a picture that stands for `frames`.
+/// A regular sample of the pixels of an image that represents `frames`.
 pub(super) fn sample(image: &FrameImage, frames: u32) -> impl Iterator<Item = [u8; 3]> + '_ {
     let pixels = image.rgb8.as_chunks::<3>().0;
     let most = SAMPLED_PIXELS / frames.clamp(1, SAMPLED_FRAMES) as usize;
-    // Odd, so that it does not keep to a few columns of an even width.
+    // Odd, so that it does not stay in a few columns of an even width.
     let step = pixels.len().div_ceil(most.max(1)) | 1;
     pixels.iter().step_by(step).copied()
 }
 
 impl Gif {
-    /// Begins one of frames of a size, `fps` of them a second; it plays forever.
+    /// Begins an animation of this size, `fps` frames per second; it loops forever.
     pub(super) fn new(
         file: AtomicFile,
         size: [u32; 2],
@@ -86,8 +86,8 @@ impl Encoder for Gif {
     }
 }
 
-/// How long a frame, counted from 1, stands, in hundredths of a second: such that the frames up to
-/// any are off by half of one at most.
+/// Display time of a frame, counted from 1, in hundredths of a second, such that the time up to any
+/// frame is off by at most half of one.
 fn delay(frame: u32, fps: f64) -> u16 {
     let end = |frame: u32| (f64::from(frame) * 100.0 / fps).round();
     (end(frame) - end(frame - 1)).clamp(0.0, f64::from(u16::MAX)) as u16

@@ -1,8 +1,8 @@
 //! Finished frames: verified, and assembled to sheets, animations, videos and a page.
 //!
-//! In: a [`ShotFolder`](crate::store::ShotFolder), the frames of a shot in their folder. Out: the list of what
-//! is wrong with them ([`verify`]), and files beside them, each whole or not there ([`assemble`]).
-//! No frame is rendered here.
+//! In: a [`ShotFolder`](crate::store::ShotFolder), the frames of a shot in their folder. Out: the
+//! faults of the frames ([`verify`]), and files beside them, each complete or absent
+//! ([`assemble`]). No frame is rendered here.
 
 mod apng;
 mod assemble;

@@ -1,23 +1,23 @@
-//! What can be assembled of a shot's frames, and what each kind of file does with them.
+//! The outputs that can be assembled from a shot's frames, and the encoders that make them.
 
 use super::frame_image::FrameImage;
 use crate::shot::{Sequence, Video};
 use std::path::PathBuf;
 
-/// One thing that is assembled, a file.
+/// An output, which is one file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Output {
     /// Contact sheet.
     Sheet,
-    /// Animation of 256 colours.
+    /// Animation of 256 colors.
     Gif,
-    /// Animation of all colours.
+    /// Animation of all colors.
     Apng,
     /// Video by ffmpeg.
     Video(Video),
 }
 
-/// All there are.
+/// All outputs.
 pub(super) const OUTPUTS: [Output; 5] = [
     Output::Sheet,
     Output::Gif,
@@ -27,7 +27,7 @@ pub(super) const OUTPUTS: [Output; 5] = [
 ];
 
 impl Output {
-    /// What a shot asks for.
+    /// The outputs that a shot asks for.
     pub(super) fn of(sequence: &Sequence) -> Vec<Self> {
         let sheet = sequence.sheet.map(|_| Self::Sheet);
         let gif = sequence.gif.then_some(Self::Gif);
@@ -36,7 +36,7 @@ impl Output {
         [sheet, gif, apng, video].into_iter().flatten().collect()
     }
 
-    /// What its file's name ends in.
+    /// End of its file name.
     pub(super) fn suffix(self) -> &'static str {
         match self {
             Self::Sheet => "sheet.png",
@@ -47,7 +47,7 @@ impl Output {
         }
     }
 
-    /// What it is called on the page.
+    /// Its name on the page.
     pub(super) fn title(self) -> &'static str {
         match self {
             Self::Sheet => "contact sheet",
@@ -58,7 +58,7 @@ impl Output {
         }
     }
 
-    /// What it is called in the shot.
+    /// Its name in the shot.
     pub(super) fn word(self) -> &'static str {
         match self {
             Self::Sheet => "sheet",
@@ -70,13 +70,13 @@ impl Output {
     }
 }
 
-/// An encoder of one file, which takes frames one after the other. Dropped before its end it leaves
-/// no file. Errors continue "FILE: ".
+/// An encoder of one file, which takes frames in order. If dropped before its end, it leaves no
+/// file. Errors continue "FILE: ".
 pub(super) trait Encoder {
-    /// Takes the next frame, of the number given.
+    /// Takes the next frame, which has this number.
     fn add(&mut self, frame: u32, image: &FrameImage) -> Result<(), String>;
 
-    /// Gives the file its name; returns its path.
+    /// Gives the file its name and returns its path.
     fn finish(self: Box<Self>) -> Result<PathBuf, String>;
 }
 

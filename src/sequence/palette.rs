@@ -1,32 +1,32 @@
-//! A palette for all frames of an animation, and pictures in its colours.
+//! A palette for all frames of an animation, and images in its colors.
 //!
-//! One palette and a pattern that stands still make no flicker: what does not change from frame to
-//! frame has the same pixels in each. Colours are found by splitting, again and again, the box of
-//! colours with the largest error along its widest axis (Heckbert 1982, by variance); counts enter
-//! by their root, so that a small thing before a large black sky keeps its colours. Up to 256
-//! colours are kept as they are. Dithered by Bayer's 8 × 8 matrix (1973).
+//! One palette and a fixed dither pattern avoid flicker: what does not change from frame to frame
+//! has the same pixels in each. Colors are found by repeatedly splitting the box of colors with the
+//! largest error along its widest axis (Heckbert 1982, by variance); counts are weighted by their
+//! root, so that a small thing in front of a large black sky keeps its colors. Up to 256 colors are
+//! kept exactly. Dithering is by Bayer's 8 × 8 matrix (1973).
 
 use std::collections::BTreeMap;
 
-/// Most colours.
+/// Largest number of colors.
 const MOST: usize = 256;
 
-/// Not yet looked up.
+/// Not looked up yet.
 const UNKNOWN: u16 = u16::MAX;
 
 type Color = [u8; 3];
 
-/// Colours, and which of them is nearest to any.
+/// Colors, and the nearest of them to any other.
 pub(super) struct Palette {
     colors: Vec<Color>,
-    /// Widest offset of the pattern, levels.
+    /// Largest offset of the dither pattern, in levels.
     spread: f64,
-    /// For each colour of 24 bits the nearest of the palette, as far as it was asked for.
+    /// For each 24-bit color the nearest of the palette, filled as needed.
     nearest: Vec<u16>,
 }
 
 impl Palette {
-    /// The palette of samples of all pictures.
+    /// The palette of samples of all images.
     pub(super) fn new(samples: impl IntoIterator<Item = Color>) -> Self {
         let mut counts: BTreeMap<Color, f64> = BTreeMap::new();
         for color in samples {
@@ -55,8 +55,8 @@ impl Palette {
         palette
     }
 
-    /// How far apart neighbouring colours are, levels: what is spread evenly over such a step has
-    /// an error of 1/√12 of it.
+    /// Distance of neighboring colors, in levels: values spread evenly over such a step have an
+    /// error of 1/√12 of it.
     fn spacing(&mut self, counts: &BTreeMap<Color, f64>) -> f64 {
         let (mut squares, mut total) = (0.0, 0.0);
         for (color, count) in counts {
@@ -73,7 +73,7 @@ impl Palette {
         self.colors.concat()
     }
 
-    /// A picture in the palette's colours. What is one of them stays.
+    /// An image in the palette's colors. Pixels that have one of them are unchanged.
     pub(super) fn map(&mut self, rgb8: &[u8], width: usize) -> Vec<u8> {
         let pixels = rgb8.as_chunks::<3>().0;
         let mut indices = Vec::with_capacity(pixels.len());
@@ -127,7 +127,7 @@ fn bayer(x: usize, y: usize) -> f64 {
 struct Cluster {
     members: Vec<(Color, f64)>,
     mean: [f64; 3],
-    /// The channel with the largest error, and that of all three.
+    /// The channel with the largest error, and the error of all three.
     axis: usize,
     error: f64,
 }
@@ -140,7 +140,7 @@ impl Cluster {
         let mean = [0, 1, 2].map(|i| over(sum(&|color| f64::from(color[i]))));
         let errors = [0, 1, 2].map(|i| sum(&|color| (f64::from(color[i]) - mean[i]).powi(2)));
         let axis = (0..3).max_by(|a, b| errors[*a].total_cmp(&errors[*b]));
-        // One colour alone has no error but that of the mean's rounding.
+        // A single color has no error except that of the mean's rounding.
         let error = if members.len() > 1 {
             errors.iter().sum()
         } else {
@@ -154,7 +154,7 @@ impl Cluster {
         }
     }
 
-    /// Two boxes, divided at the mean; neither is empty where there is an error.
+    /// The two halves, divided at the mean; neither is empty if there is an error.
     fn split(self) -> (Self, Self) {
         let (axis, mean) = (self.axis, self.mean[self.axis]);
         let low = |(color, _): &(Color, f64)| f64::from(color[axis]) < mean;

@@ -1,8 +1,8 @@
-//! A contact sheet: all frames small, each with what it shows, a title on top.
+//! A contact sheet: all frames small, each with a caption, and a title on top.
 //!
-//! Rows of cells are written as they fill, so that a sheet of any length takes the memory of one.
-//! A cell is the frame, reduced in linear light to the width that the shot gives and never
-//! enlarged, and its caption below.
+//! Rows of cells are written as they fill, so that a sheet of any length takes the memory of one
+//! row. A cell is the frame, reduced in linear light to the width in the shot and never enlarged,
+//! with its caption below.
 
 use super::frame_image::{FrameImage, reduce};
 use super::output::Encoder;
@@ -15,23 +15,23 @@ use crate::store::{AtomicFile, AtomicWriter, ShotFolder};
 use std::io::{self, Write};
 use std::path::PathBuf;
 
-/// Between and around cells, pixels.
+/// Space between and around cells, pixels.
 const GAP: u32 = 8;
-/// Behind everything: a grey that black frames stand out from.
+/// Background: a gray against which black frames are visible.
 const GROUND: u8 = 34;
-/// Least width of a cell, pixels, that the shot can ask for.
+/// Smallest width of a cell that the shot can ask for, pixels.
 const NARROWEST: u32 = 16;
-/// Width of a cell that its caption needs, pixels, however small its frame is.
+/// Width that the caption of a cell needs, pixels, however small its frame is.
 const CAPTION: u32 = 200;
 
-/// Where everything stands on a sheet, pixels.
+/// Positions and sizes on a sheet, pixels.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Layout {
     columns: u32,
-    /// Of a cell, and of the frame in it.
+    /// Width of a cell, and of the frame in it.
     width: u32,
     picture: [u32; 2],
-    /// Of a caption's letters and lines.
+    /// Sizes of a caption's letters and lines.
     letters: f64,
     line: u32,
     lines: u32,
@@ -67,8 +67,7 @@ impl Layout {
         }
     }
 
-    /// The layout whose width is the largest up to the one asked for with which the sheet can be
-    /// held.
+    /// The widest layout, up to the width asked for, that does not exceed the limits.
     fn fitting(
         frames: u32,
         columns: u32,
@@ -104,7 +103,7 @@ impl Layout {
 /// The layout of a shot's sheet.
 ///
 /// # Errors
-/// Where it cannot be held.
+/// If it exceeds the limits.
 pub(super) fn layout(shot: &Shot, splices: &Splices) -> Result<Layout, String> {
     let asked = shot.sequence.sheet.unwrap_or_default();
     let lines = if splices.iter().count() > 1 { 2 } else { 1 };
@@ -118,18 +117,18 @@ pub(super) fn layout(shot: &Shot, splices: &Splices) -> Result<Layout, String> {
     )
 }
 
-/// A sheet in the making.
+/// A sheet being written.
 pub(super) struct Sheet {
     file: AtomicFile,
     writer: png::StreamWriter<'static, AtomicWriter>,
     layout: Layout,
     captions: Vec<Vec<(u32, String)>>,
-    /// Reduced frames of the row that fills.
+    /// Reduced frames of the current row.
     row: Vec<FrameImage>,
 }
 
 impl Sheet {
-    /// Begins one of a shot's frames, shown by their splices.
+    /// Begins the sheet of a shot's frames, displayed by their splices.
     pub(super) fn new(
         file: AtomicFile,
         shot_folder: &ShotFolder,
@@ -192,7 +191,7 @@ impl Sheet {
         self.writer.write_all(&band.rgb8)
     }
 
-    /// Writes the row that has filled: frames, captions, a gap.
+    /// Writes the current row: frames, captions, a gap.
     fn flush(&mut self, first: usize) -> io::Result<()> {
         let layout = self.layout;
         let below = layout.lines * layout.line + GAP;
@@ -250,7 +249,7 @@ impl Band {
         }
     }
 
-    /// Puts a picture `left` pixels from the left.
+    /// Places an image `left` pixels from the left.
     fn put(&mut self, left: u32, image: &FrameImage) {
         let line = image.width as usize * 3;
         let rows = self.rgb8.chunks_exact_mut(self.width as usize * 3);
@@ -259,7 +258,7 @@ impl Band {
         }
     }
 
-    /// Writes texts whose base lines begin at points, in letters of a size.
+    /// Writes texts with their baselines at points, in letters of a size.
     fn write(&mut self, letters: f64, texts: &[(u32, u32, &str)]) -> io::Result<()> {
         let (width, height) = (self.width, self.height);
         let mut svg = format!(
@@ -268,7 +267,7 @@ impl Band {
              sans-serif\" font-size=\"{letters}\" fill=\"#e6e6e6\">"
         );
         for (x, y, text) in texts {
-            // Blanks that stay apart.
+            // Non-breaking spaces.
             let text = escaped(text).replace(' ', "\u{a0}");
             svg += &format!("<text x=\"{x}\" y=\"{y}\">{text}</text>");
         }

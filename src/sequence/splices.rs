@@ -1,4 +1,4 @@
-//! How a frame is shown: as it stands, or the splices of a spliced one side by side.
+//! The display of a frame: unchanged, or with its splices side by side.
 
 use super::frame_image::FrameImage;
 use crate::frame::Splice;
@@ -16,12 +16,12 @@ pub(super) struct Splices {
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) struct SpliceRows {
     rows: Range<u32>,
-    /// The effects that differ from part to part, in words.
+    /// The effects that differ between the parts, in words.
     pub(super) label: String,
 }
 
 impl Splices {
-    /// The splices of frames of a size; one where they shall not stand side by side.
+    /// The splices of frames of a size; one if they are not to be side by side.
     pub(super) fn new(shot: &Shot, size: [u32; 2]) -> Self {
         let [_, height] = size;
         let whole = SpliceRows {
@@ -36,7 +36,7 @@ impl Splices {
             .iter()
             .map(|s| s.rows_of(height))
             .collect();
-        // The last splice that covers a row holds.
+        // The last splice that covers a row wins.
         let owner = |row: u32| covered.iter().rposition(|rows| rows.contains(&row));
         let mut list: Vec<SpliceRows> = Vec::new();
         let mut last = None;
@@ -54,19 +54,19 @@ impl Splices {
         Self { size, list }
     }
 
-    /// The splices one by one.
+    /// The splices in order.
     pub(super) fn iter(&self) -> impl Iterator<Item = &SpliceRows> {
         self.list.iter()
     }
 
-    /// Pixels in a row, and rows, of what is shown.
+    /// Width and height of the displayed image, in pixels.
     pub(super) fn shown_size(&self) -> [u32; 2] {
         let highest = self.list.iter().map(|part| part.rows.len() as u32).max();
         let across = self.size[0].saturating_mul(self.list.len() as u32);
         [across, highest.unwrap_or(self.size[1])]
     }
 
-    /// A frame as it is shown; splices that are less high than others are black below.
+    /// A frame as it is displayed; splices lower than others are black below.
     pub(super) fn arrange(&self, image: FrameImage) -> FrameImage {
         if self.list.len() == 1 {
             return image;
@@ -89,7 +89,7 @@ impl Splices {
     }
 }
 
-/// The effects that some splice changes, as they are in one of them or in the rest.
+/// The effects that some splice changes, with their values in one splice or in the rest.
 fn label(shot: &Shot, splice: Option<usize>) -> String {
     let splices = Splice::all(shot);
     let here = splice.and_then(|index| splices.get(index));

@@ -1,8 +1,8 @@
-//! A shot's frames looked at one by one: whether each is there, whole, as it should be, and fits
-//! between its neighbours.
+//! Verification of a shot's frames: each must exist, be complete and up to date, and fit between
+//! its neighbors.
 //!
-//! Files are decoded on all threads, one a thread at a time, so that memory is bounded by as many
-//! pictures as there are threads.
+//! Files are decoded on all threads, one per thread at a time, so that memory is bounded by as many
+//! images as there are threads.
 
 use super::discontinuity::{Differences, Discontinuity, Grid};
 use super::findings::{Finding, Kind, Report, Run, SINGLY, count, gaps, unknown_files};
@@ -15,22 +15,22 @@ use rayon::prelude::*;
 use serde_json::Value;
 use std::path::Path;
 
-/// Frames between two looks at how they differ: enough for all threads.
+/// Number of frames between two comparisons, enough for all threads.
 const AT_ONCE: usize = 64;
 
-/// Share of its step by which a value of the shot must leave the way between its neighbours to
-/// explain a frame that does: a kink leaves it by a half, a jump by a half or more; smooth keys by
-/// less than a third where the step is not nearly nothing.
+/// Share of its step by which a value of the shot must leave the range between its neighbors to
+/// explain a discontinuity: a kink leaves it by a half, a jump by a half or more; smooth keys by
+/// less than a third unless the step is nearly nothing.
 const KINK: f64 = 0.4;
 
-/// Looks at every frame of a shot, and at the files beside them. A folder that is not there has no
+/// Verifies every frame of a shot, and the files beside them. A folder that does not exist has no
 /// frames.
 pub fn verify(shot_folder: &ShotFolder) -> Report {
     let never = Stop::default();
     verify_until(shot_folder, &never).unwrap_or_default()
 }
 
-/// The same, unless asked to stop.
+/// Like [`verify`], but stops if asked to.
 pub(super) fn verify_until(shot_folder: &ShotFolder, stop: &Stop) -> Option<Report> {
     let frames = shot_folder.shot().shot.frames;
     let there: Vec<u32> = shot_folder.there().into_iter().collect();
@@ -59,7 +59,7 @@ pub(super) fn verify_until(shot_folder: &ShotFolder, stop: &Stop) -> Option<Repo
     Some(Report { frames, findings })
 }
 
-/// The findings of frames of which nothing is there: of a long run one.
+/// Findings of missing frames: one for a long run.
 fn missing(shot_folder: &ShotFolder, gap: &Run) -> Vec<Finding> {
     let file = |frame: u32| {
         shot_folder
@@ -84,7 +84,7 @@ fn missing(shot_folder: &ShotFolder, gap: &Run) -> Vec<Finding> {
     }]
 }
 
-/// What is wrong with one frame by itself; and its grid, if it can be shown.
+/// The faults of one frame by itself; and its grid, if it can be decoded.
 fn look(shot_folder: &ShotFolder, frame: u32) -> (Vec<Finding>, Option<Grid>) {
     let key = shot_folder.keys.frame(frame);
     let record = shot_folder.records.get(&frame);
@@ -97,7 +97,7 @@ fn look(shot_folder: &ShotFolder, frame: u32) -> (Vec<Finding>, Option<Grid>) {
     let mut findings = Vec::new();
     let mut grid = None;
     if status == Status::Missing {
-        // Gone in this moment.
+        // It vanished at this moment.
         return (missing(shot_folder, &(frame..=frame)), grid);
     }
     let shown = shown_extension(shot_folder.shot());
@@ -111,7 +111,7 @@ fn look(shot_folder: &ShotFolder, frame: u32) -> (Vec<Finding>, Option<Grid>) {
                     grid = inspected.grid;
                 }
             }
-            // Of something else, so of another size too: that goes without saying.
+            // A frame of something else may have another size; that needs no finding of its own.
             Err(Fault::Size { .. }) if !same => {}
             Err(fault) => {
                 let why = cut_short(told, &shot_folder.path, &file, &fault);
@@ -119,7 +119,7 @@ fn look(shot_folder: &ShotFolder, frame: u32) -> (Vec<Finding>, Option<Grid>) {
             }
         }
     }
-    // Where the files themselves tell what is wrong, that is said and not that lengths differ.
+    // If the files themselves show the fault, differences of length are not reported too.
     if let Status::Stale { reason } = status
         && (!same || findings.is_empty())
     {
@@ -141,7 +141,7 @@ struct Inspected {
     grid: Option<Grid>,
 }
 
-/// Reads a file; `told` is what a manifest tells of the frame's files as they should be.
+/// Reads a file. `told` are the manifest's records of the frame's files, if up to date.
 fn inspect(
     shot_folder: &ShotFolder,
     told: &[FileRecord],
@@ -175,7 +175,7 @@ fn inspect(
     })
 }
 
-/// The fault in words; of a file that has fewer bytes than were written, how many are gone.
+/// The fault in words, with the number of missing bytes if the file is shorter than it was written.
 fn cut_short(told: &[FileRecord], folder: &Path, file: &str, fault: &Fault) -> String {
     let written = told.iter().find(|f| f.name == file);
     let length = std::fs::metadata(folder.join(file)).map_or(0, |m| m.len());
@@ -225,7 +225,7 @@ fn unexplained(shot_folder: &ShotFolder, discontinuity: &Discontinuity) -> Optio
     Some(finding(frame, file, Kind::Outlier, why))
 }
 
-/// Whether a value of the shot leaves the way between its neighbours.
+/// Whether a value of the shot leaves the range between its neighbors.
 fn explained(keys: [FrameFingerprint; 3]) -> bool {
     let [before, here, after] = keys.map(|key| key.inputs);
     let one_way = |part: &str, value: &String| match (before.get(part), after.get(part)) {
@@ -237,7 +237,7 @@ fn explained(keys: [FrameFingerprint; 3]) -> bool {
     !smooth || before.keys().chain(after.keys()).any(gone)
 }
 
-/// Whether a value lies between two others as if on its way; words must be those of a neighbour.
+/// Whether a value lies between two others as if on its way; words must equal those of a neighbor.
 fn smooth(before: &str, here: &str, after: &str) -> bool {
     match [before, here, after].map(numbers) {
         [Some(before), Some(here), Some(after)]
@@ -248,12 +248,12 @@ fn smooth(before: &str, here: &str, after: &str) -> bool {
                 (v - (p + n) / 2.0).abs() <= KINK * step
             })
         }
-        // A hash tells nothing but that something changed, which it does where things move.
+        // A hash only shows that something changed, which it does if things move.
         _ => here == before || here == after || before != after,
     }
 }
 
-/// The numbers of a value as it stands in JSON; none if it is a word.
+/// The numbers in a JSON value; None if it is a word.
 fn numbers(text: &str) -> Option<Vec<f64>> {
     fn collect(value: &Value, numbers: &mut Vec<f64>) -> Option<()> {
         match value {

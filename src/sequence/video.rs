@@ -1,8 +1,8 @@
-//! A video by ffmpeg, which is handed pixels through a pipe and never the names of files: of those
-//! it would pass over what is missing and stop without a word at what is empty.
+//! A video by ffmpeg, which receives pixels through a pipe and never file names: with names, it
+//! would skip missing files and stop silently at empty ones.
 //!
-//! Rec. 709 as players expect it: limited range, 4:2:0, tagged; the transfer is sRGB's, that of the
-//! pixels. H.264 at a constant rate factor of 18, AV1 at 20 with 10 bits.
+//! Rec. 709 as players expect it: limited range, 4:2:0, tagged; the transfer is that of the pixels,
+//! sRGB. H.264 at a constant rate factor of 18, AV1 at 20 with 10 bits.
 
 use super::child_process::ChildProcess;
 use super::frame_image::FrameImage;
@@ -15,10 +15,10 @@ use std::io::{self, Read};
 use std::path::PathBuf;
 use std::process::Command;
 
-/// Least pixels a side of the AV1 encoder (SVT-AV1 1.4).
+/// Smallest side of an image for the AV1 encoder (SVT-AV1 1.4), pixels.
 const LEAST_AV1: u32 = 64;
 
-/// A video in the making.
+/// A video being written.
 pub(super) struct Video {
     file: AtomicFile,
     ffmpeg: ChildProcess,
@@ -27,13 +27,13 @@ pub(super) struct Video {
     size: [u32; 2],
 }
 
-/// A size with even sides, by one column or row more.
+/// A size with even sides, one column or row more if needed.
 pub(super) fn even(size: [u32; 2]) -> [u32; 2] {
     size.map(|side| side.next_multiple_of(2))
 }
 
 impl Video {
-    /// Begins one of so many frames of a size, `rate` of them a second as a fraction.
+    /// Begins a video of this many frames of a size, `rate` of them per second as a fraction.
     pub(super) fn new(
         file: AtomicFile,
         kind: Kind,
@@ -70,7 +70,7 @@ impl Video {
     }
 }
 
-/// All that ffmpeg is told but the file's name.
+/// All arguments of ffmpeg except the file name.
 fn arguments(kind: Kind, [width, height]: [u32; 2], (n, d): (i32, u32)) -> Vec<OsString> {
     let (format, codec) = match kind {
         Kind::Mp4 => ("yuv420p", "-c:v libx264 -crf 18 -preset slow"),
@@ -90,7 +90,7 @@ impl Encoder for Video {
         let padded = pad(image, even(self.size));
         let pixels = padded.as_ref().unwrap_or(&image.rgb8);
         let written = self.ffmpeg.write(pixels);
-        // It has ended: what it said tells more than the broken pipe.
+        // It has ended: its output says more than the broken pipe.
         written.map_err(|error| match self.ffmpeg.end() {
             Err(why) => failed(&why),
             Ok(()) => error.to_string(),
@@ -113,7 +113,7 @@ fn failed(why: &str) -> String {
     format!("ffmpeg failed {why}")
 }
 
-/// The pixels with their last column and row once more, where sides are odd.
+/// The pixels with their last column and row repeated if sides are odd.
 fn pad(image: &FrameImage, [width, height]: [u32; 2]) -> Option<Vec<u8>> {
     if [width, height] == [image.width, image.height] {
         return None;
@@ -131,8 +131,8 @@ fn pad(image: &FrameImage, [width, height]: [u32; 2]) -> Option<Vec<u8>> {
     Some(padded)
 }
 
-/// How many frames a video has; none where there is no ffprobe to tell. ffmpeg ends well though the
-/// end of the file could not be written (5.1): a video that ffprobe cannot read is a torn one.
+/// Number of frames of a video; None if there is no ffprobe. ffmpeg (5.1) succeeds even if the end
+/// of the file could not be written: a video that ffprobe cannot read is incomplete.
 fn count(file: &AtomicFile, stop: &Stop) -> Result<Option<u32>, String> {
     let words = "-v error -select_streams v:0 -count_frames -show_entries stream=nb_read_frames \
                  -of csv=p=0";

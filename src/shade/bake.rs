@@ -68,7 +68,7 @@ impl Bake<'_> {
 
     /// A reach, or 0 where spectra do not shift.
     fn shifted(&self, reach: f64) -> f64 {
-        if self.settings.called.doppler {
+        if self.settings.effects.doppler {
             reach
         } else {
             0.0
@@ -95,7 +95,7 @@ impl Bake<'_> {
             self.emitter_table(curve, self.settings.reach)
         });
         let thermal = material.thermal.as_ref();
-        let thermal = thermal.filter(|_| self.settings.called.thermal);
+        let thermal = thermal.filter(|_| self.settings.effects.thermal);
         let thermal = thermal.map(|thermal| self.thermal(thermal));
         let reflectances = lobes[..non_specular].iter().map(|lobe| &lobe.reflectance);
         let emissivity = thermal.iter().map(|thermal| thermal.parts().1);

@@ -41,7 +41,7 @@ impl CurveShader {
         quadrature: &Quadrature,
     ) -> Self {
         let axis = sensor.axis();
-        let walk = TreeWalk::new(scene, settings.called);
+        let walk = TreeWalk::new(scene, settings.effects);
         let few = scene.materials.len() * walk.emitters().len() <= MOST_TABLES;
         let tabulated = settings.accuracy.spectra == Spectra::Grid && XyzTable::serves(axis) && few;
         let bake = Bake {

@@ -17,10 +17,10 @@ pub struct Received {
 
 impl Received {
     /// As the image calls for.
-    pub fn new(called: &ActiveEffects) -> Self {
+    pub fn new(effects: &ActiveEffects) -> Self {
         Self {
-            beaming: called.beaming,
-            doppler: called.doppler,
+            beaming: effects.beaming,
+            doppler: effects.doppler,
         }
     }
 

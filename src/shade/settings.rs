@@ -7,7 +7,7 @@ use crate::spectrum::{LogAxis, Quadrature, Sensor};
 /// What a [`Shader`](super::Shader) is made for, beside the scene.
 pub struct Settings<'a> {
     /// Effects of the image.
-    pub called: &'a ActiveEffects,
+    pub effects: &'a ActiveEffects,
     /// How spectra are held.
     pub accuracy: &'a Accuracy,
     /// The band that is seen, and how.

@@ -44,7 +44,7 @@ pub(super) struct TreeWalk {
 
 impl TreeWalk {
     /// For the trees of a scene's image.
-    pub(super) fn new(scene: &Scene, called: &ActiveEffects) -> Self {
+    pub(super) fn new(scene: &Scene, effects: &ActiveEffects) -> Self {
         let mut emitters: Vec<Arc<Spectrum>> = Vec::new();
         let lamps = scene
             .lights
@@ -60,7 +60,7 @@ impl TreeWalk {
             .collect();
         let lobes = scene.materials.iter().map(|m| m.bsdf.non_specular().len());
         Self {
-            received: Received::new(called),
+            received: Received::new(effects),
             lamps,
             emitters,
             lobes: lobes.collect(),

@@ -9,6 +9,7 @@
 //! for those who import a model and for those who only fingerprint it.
 
 mod accuracy;
+mod at_frame;
 mod body;
 mod camera;
 mod document;
@@ -23,11 +24,11 @@ mod sequence;
 mod settings;
 mod sky;
 mod spectrum;
-mod still;
 mod text;
 mod track;
 
 pub use accuracy::{Accuracy, AccuracyKeys, Precision, Preset, Spectra};
+pub use at_frame::Moving;
 pub use body::{
     Array, GammaVelocity, LightUnits, Model, RapidityVelocity, Scale, Velocity, Worldline,
 };
@@ -53,6 +54,5 @@ pub use sky::{
     Background, MOST_STARS, RandomStars, STAR_KELVIN, STAR_MAGNITUDE, StarCatalogue, Stars,
 };
 pub use spectrum::{Beyond, Gaussian, SpectrumTable, SpectrumValue};
-pub use still::Moving;
 pub use text::{SAVE_AS_UTF8, TextError, each_line, is_utf16, text_of};
 pub use track::{Blend, Ease, Track};

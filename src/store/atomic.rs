@@ -1,8 +1,9 @@
-//! Files that are either whole or absent, however the run ends.
+//! Files that are either complete or absent, however the run ends.
 //!
-//! A temporary file in the same folder, `NAME.restframe-XXXXXX.tmp`, is written, flushed to the disk and renamed
-//! over its target; then the folder is flushed. It is removed when it is dropped before that. A killed
-//! run can leave the temporary file, never a torn target; [`sweep`](super::sweep) removes it.
+//! A temporary file in the same folder, `NAME.XXXXXX.tmp`, is written, flushed to the disk and
+//! renamed to its target; then the folder is flushed. If dropped before that, it is removed. A
+//! killed run can leave the temporary file but never an incomplete target; [`sweep`](super::sweep)
+//! removes such files.
 
 use super::names::MARK;
 use super::write_error::{explain, folder_of};
@@ -13,20 +14,19 @@ use std::path::{Path, PathBuf};
 use std::rc::Rc;
 use tempfile::{Builder, NamedTempFile};
 
-/// Writes `bytes` to `path` so that a reader sees the old file or the new one, nothing between,
-/// even after a power failure. The file gets the permissions of any newly created one.
+/// Writes `bytes` to `path` so that a reader sees either the old file or the new one, even after a
+/// power failure. The file gets the permissions of any newly created one.
 ///
 /// # Errors
-/// Of the kind that the system reported, with the path and what to do about it. Unless it is
-/// the last step that failed, the flushing of the folder, an old file is then still there as
-/// it was. No temporary file is left.
+/// Of the kind that the system reported, with the path and a remedy. Unless the last step failed,
+/// the flushing of the folder, an old file is unchanged then. No temporary file is left.
 pub fn write_atomically(path: &Path, bytes: &[u8]) -> io::Result<()> {
     let file = AtomicFile::create(path)?;
     file.writer().write_all(bytes)?;
     file.keep().map(|_| ())
 }
 
-/// Whether files can be made in the folder of `path`, found out by making one beside it.
+/// Whether files can be created in the folder of `path`, found out by creating one beside it.
 ///
 /// # Errors
 /// As [`write_atomically`].
@@ -36,7 +36,7 @@ pub(crate) fn check_writable(path: &Path) -> io::Result<()> {
 
 /// A temporary file beside its target, renamed to it when complete and removed when dropped.
 ///
-/// Encoders write their last bytes as they are dropped, and ignore what then goes wrong; so the file
+/// Encoders write their last bytes as they are dropped, and ignore errors then; so the file
 /// remembers the first failure of all its writers, and is not renamed after one.
 #[derive(Debug)]
 pub struct AtomicFile {
@@ -45,11 +45,11 @@ pub struct AtomicFile {
     buffer: Rc<RefCell<Buffer>>,
 }
 
-/// The bytes on their way to the disk, and the first thing that went wrong with them.
+/// Bytes on their way to the disk, and the first failure of writing them.
 #[derive(Debug)]
 struct Buffer {
     file: BufWriter<File>,
-    /// For messages.
+    /// The target, for messages.
     target: PathBuf,
     failed: Option<io::Error>,
 }
@@ -91,7 +91,7 @@ impl AtomicFile {
         AtomicWriter(Rc::clone(&self.buffer))
     }
 
-    /// Flushes the file to the disk and renames it to its target, in place of an older one; returns
+    /// Flushes the file to the disk and renames it to its target, replacing an older one. Returns
     /// the target.
     ///
     /// # Errors
@@ -113,8 +113,8 @@ impl AtomicFile {
     }
 }
 
-/// A new file in the folder of `target`, under a name that nobody else has: another machine may be
-/// writing there, and a process killed earlier may have left its own.
+/// A new file in the folder of `target`, under a unique name: another machine may be writing there,
+/// and a process killed earlier may have left its own.
 fn temporary(target: &Path) -> io::Result<NamedTempFile> {
     let mut prefix = target
         .file_name()
@@ -140,7 +140,7 @@ impl Buffer {
         }
     }
 
-    /// Remembers the first failure, with what to do about it; its caller gets a copy.
+    /// Remembers the first failure, with a remedy; the caller gets a copy.
     fn remember<T>(&mut self, result: io::Result<T>) -> io::Result<T> {
         result.map_err(|error| {
             let error = explain(&self.target, &error);
@@ -165,7 +165,8 @@ impl Write for AtomicWriter {
     }
 }
 
-/// Makes the renaming last. Some network file systems cannot, and say so: that is no failure.
+/// Makes the renaming durable. Some network file systems cannot do this and report it, which is not
+/// a failure.
 #[cfg(unix)]
 fn sync_folder(folder: &Path) -> io::Result<()> {
     match File::open(folder)?.sync_all() {
@@ -181,7 +182,7 @@ fn sync_folder(folder: &Path) -> io::Result<()> {
     }
 }
 
-/// Elsewhere a folder cannot be opened as a file.
+/// On other systems a folder cannot be opened as a file.
 #[cfg(not(unix))]
 fn sync_folder(_: &Path) -> io::Result<()> {
     Ok(())

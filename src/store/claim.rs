@@ -1,12 +1,12 @@
-//! Claims: which of several processes works on a frame.
+//! Claims: the right of one of several processes to work on a frame.
 //!
-//! A claim is a lock on a file in `.STEM.locks`, held by the open file and so gone with its process,
-//! however that ends. Who gives a claim up removes the file while it is still locked; who then gets
-//! the lock on the removed file sees that it no longer stands at its path, and takes the new one.
-//! Where the file system knows no locks, nothing is claimed, and two processes may do the same work
-//! twice; what they write is whole all the same.
+//! A claim is a lock on a file in `.STEM.locks`. The lock belongs to the open file and so ends with
+//! its process, however that ends. To give a claim up, a process removes the file while it is still
+//! locked; another that then gets the lock on the removed file sees that it is no longer at its
+//! path, and opens the new one. If the file system does not support locks, nothing is claimed, and
+//! two processes may do the same work twice; their files are complete all the same.
 //!
-//! Since giving up removes files, none is touched outside the shot's folder: links are refused.
+//! Links are refused: dropping a claim removes files, and none outside the shot's folder may go.
 
 use super::names::{Names, SEQUENCE, is_number};
 use super::plain_file::{is_real_folder, open_plain};
@@ -26,19 +26,19 @@ struct Held {
 }
 
 impl Claim {
-    /// Claims frame number `frame` of a folder; None if another process has.
+    /// Claims frame number `frame` of a folder; None if another process has it.
     ///
     /// # Errors
-    /// When the lock's file cannot be made.
+    /// If the lock's file cannot be created.
     pub fn frame(folder: &Path, names: &Names, frame: u32) -> io::Result<Option<Self>> {
         Self::take(folder, names, &names.number(frame))
     }
 
-    /// Claims what has a name: a frame's number, or [`SEQUENCE`](super::SEQUENCE). None if another
-    /// process has.
+    /// Claims by name: a frame number, or [`SEQUENCE`](super::SEQUENCE). None if another process
+    /// has it.
     ///
     /// # Errors
-    /// When the lock's file cannot be made.
+    /// If the lock's file cannot be created.
     pub fn take(folder: &Path, names: &Names, what: &str) -> io::Result<Option<Self>> {
         let path = folder.join(names.locks()).join(what);
         let explain = |error: io::Error| {
@@ -64,12 +64,12 @@ impl Claim {
         }
     }
 
-    /// The claim on a frame that no other process can know of, in memory.
+    /// The claim on a frame in memory, which no other process can know of.
     pub fn none() -> Self {
         Self(None)
     }
 
-    /// Whether the file system knows locks, so that nobody else can have this claim.
+    /// Whether the file system supports locks, so that no other process can have this claim.
     pub fn is_exclusive(&self) -> bool {
         self.0.is_some()
     }
@@ -82,18 +82,18 @@ impl Drop for Held {
     }
 }
 
-/// Removes the file of a lock, and the folder after the last.
+/// Removes the file of a lock, and the folder after the last one.
 fn remove(path: &Path) {
-    // Another machine may have cleaned up; the lock itself goes with the file.
+    // Another machine may have removed it; the lock itself ends with the file.
     let _ = fs::remove_file(path);
     if let Some(folder) = path.parent() {
-        // Only the last claim's succeeds.
+        // Succeeds for the last claim only.
         let _ = fs::remove_dir(folder);
     }
 }
 
-/// Whether locking failed because the file system knows no locks, or, of a network, because nobody
-/// there keeps them.
+/// Whether locking failed because the file system does not support locks or, on a network, because
+/// no server keeps them.
 pub(super) fn knows_no_locks(error: &io::Error) -> bool {
     /// ENOLCK, which has no [`ErrorKind`].
     const NO_LOCKS: Option<i32> = if cfg!(any(target_os = "linux", target_os = "android")) {
@@ -108,7 +108,7 @@ pub(super) fn knows_no_locks(error: &io::Error) -> bool {
     error.kind() == ErrorKind::Unsupported || number.is_some() && number == NO_LOCKS
 }
 
-/// Refuses a folder of locks that is elsewhere.
+/// Refuses a folder of locks that is a link to elsewhere.
 pub(crate) fn refuse_link(locks: &Path) -> io::Result<()> {
     match fs::symlink_metadata(locks) {
         Ok(data) if !data.is_dir() => Err(io::Error::new(
@@ -119,8 +119,8 @@ pub(crate) fn refuse_link(locks: &Path) -> io::Result<()> {
     }
 }
 
-/// Opens a lock's file, made if it is not there; its folder too, which whoever drops the last claim
-/// may be removing.
+/// Opens a lock's file, creating it and its folder if needed; another process may be removing the
+/// folder with its last claim.
 fn open(path: &Path) -> io::Result<File> {
     const ATTEMPTS: usize = 1000;
     let mut options = OpenOptions::new();
@@ -147,14 +147,14 @@ fn stands_at(file: &File, path: &Path) -> bool {
     }
 }
 
-/// Elsewhere a file that is open keeps its name, or gives it up at once.
+/// On other systems an open file keeps its name, or loses it at once.
 #[cfg(not(unix))]
 fn stands_at(_: &File, path: &Path) -> bool {
     path.exists()
 }
 
-/// Removes what killed runs left in a folder: files that they were writing, and their locks. What
-/// another process is working on is left alone. Trouble is passed over: leftovers do no harm.
+/// Removes leftovers of killed runs in a folder: incomplete files, and their locks. Files of
+/// running processes are left alone. Failures are ignored, since leftovers do no harm.
 pub fn sweep(folder: &Path, names: &Names) {
     for name in file_names(folder) {
         let Some(what) = names.claim_of_temporary(&name) else {

@@ -1,7 +1,7 @@
-//! Journals: files of lines of JSON that are appended and never rewritten.
+//! Journals: files of JSON lines that are appended and never rewritten.
 //!
-//! A line is there whole or not at all, whoever else appends and however the run ends: a killed run
-//! loses at most the line it was writing, which the next line does not continue.
+//! A line is complete or absent, whoever else appends and however the run ends: a killed run loses
+//! at most the line that it was writing, and the next line does not continue it.
 
 use super::claim::knows_no_locks;
 use super::plain_file::open_plain;
@@ -11,10 +11,10 @@ use std::fs::{File, OpenOptions};
 use std::io::{self, BufRead, BufReader, Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
-/// Longest line that is read, bytes. Ours have some KiB.
+/// Length of the longest line that is read, bytes. Ours have a few KiB.
 const LONGEST_LINE: u64 = 1 << 20;
 
-/// A journal to append to, made by its first line.
+/// A journal to append to, created with its first line.
 #[derive(Debug)]
 pub(crate) struct Journal {
     path: PathBuf,
@@ -28,11 +28,12 @@ impl Journal {
         Self { path, opening }
     }
 
-    /// Appends a line for each entry and flushes them to the disk; of no entries, makes the file.
+    /// Appends a line for each entry and flushes them to the disk; without entries, creates the
+    /// file.
     ///
     /// # Errors
-    /// Of the kind that the system reported, with the path and what to do about it; the journal
-    /// then has no part of the lines, if the system lets it be cut off.
+    /// Of the kind that the system reported, with the path and a remedy; the journal then contains
+    /// no part of the lines, if the system can truncate it.
     pub(crate) fn append<T: Serialize>(&self, entries: &[T]) -> io::Result<()> {
         let lines = entries.iter().map(serde_json::to_string);
         let lines = lines.collect::<Result<Vec<_>, _>>()?;
@@ -53,7 +54,7 @@ impl Journal {
             0 if self.opening.is_empty() => String::new(),
             0 => format!("{}\n", self.opening),
             _ if ends_a_line(&mut file)? => String::new(),
-            // A killed run was writing there.
+            // A killed run left an incomplete line.
             _ => "\n".to_owned(),
         };
         for line in lines {
@@ -84,14 +85,13 @@ fn ends_a_line(file: &mut File) -> io::Result<bool> {
 /// Calls `each` with the lines of the journal at `path`.
 ///
 /// # Errors
-/// A file that is not there, is no plain file, or cannot be read.
+/// A file that does not exist, is not a plain file, or cannot be read.
 pub(crate) fn each_line(path: &Path, each: impl FnMut(&[u8])) -> io::Result<()> {
     let file = open_plain(path, OpenOptions::new().read(true))?;
     lines_of(BufReader::new(file), each)
 }
 
-/// Anybody may have written a journal: a line that is longer than any of ours is passed over, and
-/// takes no memory.
+/// Journals may come from anyone: a line longer than any of ours is skipped, and takes no memory.
 fn lines_of(mut journal: impl BufRead, mut each: impl FnMut(&[u8])) -> io::Result<()> {
     let mut line = Vec::new();
     loop {

@@ -1,9 +1,9 @@
-//! Facts of the machine and of this process, as Linux tells them (proc(5)).
+//! Facts about the machine and this process, from Linux (proc(5)).
 
 use std::fs;
 use std::time::{Duration, SystemTime, UNIX_EPOCH};
 
-/// The machine's name; empty where it has none.
+/// The machine's name; empty if it has none.
 pub(crate) fn host() -> String {
     let named = fs::read_to_string("/proc/sys/kernel/hostname").ok();
     let variable = |name| std::env::var(name).ok();
@@ -13,23 +13,23 @@ pub(crate) fn host() -> String {
         .map_or_else(String::new, |name| name.trim().to_owned())
 }
 
-/// Greatest resident memory of this process, MiB: so far, or since [`forget_peak`].
+/// Largest resident memory of this process, MiB: so far, or since [`forget_peak`].
 pub(crate) fn peak_memory_mib() -> Option<f64> {
     kib("/proc/self/status", "VmHWM:").map(|kib| kib as f64 / 1024.0)
 }
 
-/// Forgets the greatest memory so far. Answers whether the system could.
+/// Resets the peak. Returns whether the system allows it.
 pub(crate) fn forget_peak() -> bool {
     const PEAK: &str = "5";
     fs::write("/proc/self/clear_refs", PEAK).is_ok()
 }
 
-/// Memory that can be had, MiB, where the system says.
+/// Available memory, MiB, if the system states it.
 pub(crate) fn free_memory_mib() -> Option<u64> {
     kib("/proc/meminfo", "MemAvailable:").map(|kib| kib >> 10)
 }
 
-/// The time, UTC, as RFC 3339 has it: to the millisecond, so that texts compare as times do.
+/// The time, UTC, in the format of RFC 3339 to the millisecond, so that texts sort as times do.
 pub(crate) fn now() -> String {
     let since_1970 = SystemTime::now().duration_since(UNIX_EPOCH);
     rfc_3339(since_1970.unwrap_or_default())
@@ -43,7 +43,7 @@ fn rfc_3339(since_1970: Duration) -> String {
     format!("{year:04}-{month:02}-{day:02}T{hour:02}:{minute:02}:{second:02}.{millis:03}Z")
 }
 
-/// Year, month and day so many days after 1970-01-01: `civil_from_days` of H. Hinnant,
+/// Year, month and day, this many days after 1970-01-01: `civil_from_days` of H. Hinnant,
 /// "chrono-Compatible Low-Level Date Algorithms" (2013). Its years begin in March, so that a leap
 /// day is their last, and repeat after 400, which have 146 097 days.
 fn date(days_since_1970: u64) -> [u64; 3] {

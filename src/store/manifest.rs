@@ -1,9 +1,10 @@
-//! The manifest of a shot's folder: a line of JSON for each finished frame, appended and never
-//! rewritten, so that a killed run loses at most the line it was writing.
+//! The manifest of a shot's folder: a JSON line for each finished frame, appended and never
+//! rewritten, so that a killed run loses at most the line that it was writing.
 //!
-//! Facts of the clock (seconds, date, host) stand here and not in the pictures, which are the same
-//! bytes whoever renders them. Of several lines on one frame the last holds. Shards write manifests
-//! of their own beside; readers take all, and of each one's last line on a frame the latest.
+//! Wall-clock facts (seconds, date, host) are here and not in the images, which have the same bytes
+//! wherever they are rendered. Of several lines on one frame the last counts. Shards write
+//! manifests of their own; readers take all of them, and of each one's last line on a frame the
+//! latest.
 
 use super::journal::{Journal, each_line};
 use super::names::Names;
@@ -30,27 +31,27 @@ pub struct Record {
     pub parts: IndexMap<String, String>,
     /// Its files.
     pub files: Vec<FileRecord>,
-    /// Pixels in a row, and rows.
+    /// Width and height in pixels.
     pub size: [u32; 2],
-    /// Samples a pixel.
+    /// Samples per pixel.
     pub samples: u32,
     /// Names of the effects that were simulated.
     pub effects: Vec<String>,
     /// [`FrameFingerprint::trace`](crate::frame::FrameFingerprint).
     pub trace: String,
-    /// How many frames shared the trace with it, itself counted.
+    /// Number of frames that shared its trace, including itself.
     pub shared: u32,
     /// Exposure, stops.
     pub exposure: f64,
-    /// Where its time went.
+    /// Seconds by phase.
     pub seconds: Seconds,
-    /// What its viewer should know.
+    /// Warnings about the image.
     pub warnings: Vec<String>,
-    /// Estimated share of its light that was not followed in mirrors and glass; 0 of frames of before
-    /// it was known.
+    /// Estimated share of its light that was not followed in mirrors and glass; 0 for frames of
+    /// versions that did not record it.
     #[serde(default)]
     pub cut: f64,
-    /// Largest memory of the process so far, MiB, where the system says.
+    /// Largest memory of the process so far, MiB, if the system states it.
     pub memory_mib: Option<u64>,
     /// Threads that worked on it.
     pub threads: u32,
@@ -58,7 +59,7 @@ pub struct Record {
     pub host: String,
     /// Version of this program.
     pub version: String,
-    /// When it was finished, UTC, as RFC 3339 has it, to the millisecond.
+    /// Time when it was finished, UTC, in the format of RFC 3339 to the millisecond.
     pub finished: String,
 }
 
@@ -69,27 +70,27 @@ pub struct FileRecord {
     pub name: String,
     /// Its length.
     pub bytes: u64,
-    /// BLAKE3 of it, hexadecimal.
+    /// Its BLAKE3 hash, hexadecimal.
     pub blake3: String,
 }
 
-/// Seconds of the clock on the wall that a frame took; of a shared trace its part of them.
+/// Wall-clock seconds that a frame took; its share of those of a shared trace.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
 pub struct Seconds {
-    /// The scene resolved, trees built, curves and links made ready.
+    /// Resolving the scene, building trees, preparing curves and links.
     pub prepare: f64,
-    /// Rays traced.
+    /// Tracing rays.
     pub trace: f64,
-    /// Shade trees to light.
+    /// From shade trees to light.
     pub shade: f64,
-    /// Developed and encoded, insets drawn.
+    /// Developing, drawing insets, encoding.
     pub encode: f64,
-    /// Written and flushed to the disk.
+    /// Writing and flushing to the disk.
     pub write: f64,
 }
 
 impl Seconds {
-    /// All of them.
+    /// Sum of all phases.
     pub fn total(&self) -> f64 {
         self.prepare + self.trace + self.shade + self.encode + self.write
     }
@@ -100,35 +101,35 @@ impl Seconds {
 pub(crate) struct Found {
     /// The frame's number.
     pub(super) found: u32,
-    /// What the files say that it is made of.
+    /// Fingerprint in the files.
     pub(super) fingerprint: String,
     /// The files.
     pub(super) files: Vec<FileRecord>,
 }
 
-/// What all manifests of a folder tell.
+/// Contents of all manifests of a folder.
 #[derive(Debug, Default)]
 pub(super) struct Manifests {
     /// The last record of each frame.
     pub(super) records: BTreeMap<u32, Record>,
-    /// The last that was found of each frame.
+    /// The last finding for each frame without a record.
     pub(super) found: BTreeMap<u32, Found>,
 }
 
-/// The last record of each frame in all manifests of a folder. Lines that are none, such as one
-/// that a killed run did not finish, are passed over. A folder that is not there holds none.
+/// The last record of each frame in all manifests of a folder. Invalid lines, such as an incomplete
+/// last one, are skipped. A folder that does not exist has none.
 ///
 /// # Errors
-/// When the folder or a manifest cannot be read.
+/// If the folder or a manifest cannot be read.
 pub fn read_records(folder: &Path, names: &Names) -> io::Result<BTreeMap<u32, Record>> {
     Ok(Manifests::read(folder, names)?.records)
 }
 
 impl Manifests {
-    /// Reads them. Links, folders and pipes that are called like manifests are none.
+    /// Reads all manifests. Links, folders and pipes with names of manifests are ignored.
     ///
     /// # Errors
-    /// When the folder or a manifest cannot be read.
+    /// If the folder or a manifest cannot be read.
     pub(super) fn read(folder: &Path, names: &Names) -> io::Result<Self> {
         let mut all = Self::default();
         let entries = match fs::read_dir(folder) {
@@ -164,16 +165,16 @@ impl Manifests {
     }
 }
 
-/// The manifest that this run appends to. A shard has one of its own, so that machines that share a
-/// folder without locks do not write to one file.
+/// The manifest to which this run appends. A shard has its own, so that machines that share a
+/// folder without locks do not write to the same file.
 #[derive(Debug)]
 pub(crate) struct ManifestWriter(Journal);
 
 impl ManifestWriter {
-    /// The manifest of a shot in its folder, made if it is not there. `shard` is K and N.
+    /// Opens or creates the manifest of a shot in its folder. `shard` is K and N.
     ///
     /// # Errors
-    /// When it cannot be written.
+    /// If it cannot be written.
     pub(crate) fn open(
         folder: &Path,
         names: &Names,
@@ -195,7 +196,7 @@ impl ManifestWriter {
     /// Appends the record of a finished frame.
     ///
     /// # Errors
-    /// When it cannot be written; no part of it is there then.
+    /// If it cannot be written; no part of it is there then.
     pub(crate) fn append(&self, record: &Record) -> io::Result<()> {
         self.0.append(std::slice::from_ref(record))
     }

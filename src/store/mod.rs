@@ -1,11 +1,11 @@
-//! The store: a shot's files on the disk, by name, and what is known of them.
+//! The store: a shot's files on the disk, their names, and records of them.
 //!
-//! In: bytes of pictures and lines of manifests. Out: files that are whole or absent
-//! ([`write_atomically`], [`AtomicFile`]), a line of the manifest for each finished frame ([`Record`]),
-//! and whether a frame must be rendered ([`ShotFolder::status`]). Several processes may work in one
-//! folder: a frame belongs to the one that holds its [`Claim`].
+//! In: bytes of images and lines of manifests. Out: files that are complete or absent
+//! ([`write_atomically`], [`AtomicFile`]), a line of the manifest for each finished frame
+//! ([`Record`]), and whether a frame must be rendered ([`ShotFolder::status`]). Several processes
+//! may work in one folder: a frame belongs to the one that holds its [`Claim`].
 //!
-//! Any file in a folder may be a stranger's: links, pipes and broken lines are passed over or refused.
+//! Files in a folder may come from anyone: links, pipes and broken lines are ignored or refused.
 
 mod atomic;
 mod claim;

@@ -1,11 +1,11 @@
-//! Names of a shot's files: frames, manifests, and what is assembled.
+//! Names of a shot's files: frames, manifests, and assembled outputs.
 
 use crate::shot::Shot;
 
 /// The claim under which a sequence is assembled.
 pub const SEQUENCE: &str = "sequence";
 
-/// What the names of assembled files end in.
+/// Ends of the names of assembled files.
 pub const ASSEMBLED: [&str; 5] = ["sheet.png", "gif", "apng", "mp4", "av1.mp4"];
 
 /// Name of the overview of a shot's frames.
@@ -18,7 +18,7 @@ pub(super) const MARK: &str = "restframe-";
 /// The names of one shot's files, all in one folder.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Names {
-    /// What all names begin with: the shot file's stem.
+    /// Beginning of all names: the stem of the shot file.
     pub stem: String,
     digits: usize,
 }
@@ -33,7 +33,7 @@ impl Names {
         }
     }
 
-    /// The names in a folder called as its shot's stem; its frames are not counted.
+    /// The names in a folder with the name of its shot's stem; the number of frames is not known.
     pub(crate) fn of_stem(stem: String) -> Self {
         Self { stem, digits: 4 }
     }
@@ -51,7 +51,7 @@ impl Names {
         (is_number(number) && known).then_some((number.parse().ok()?, extension))
     }
 
-    /// A frame's number as it stands in the names of its files: 0012.
+    /// A frame number as in the names of its files: 0012.
     pub fn number(&self, frame: u32) -> String {
         let digits = self.digits;
         format!("{frame:0digits$}")
@@ -62,8 +62,8 @@ impl Names {
         format!(".{}.locks", self.stem)
     }
 
-    /// Of a temporary file ([`AtomicFile`](super::AtomicFile)), by this version or an earlier one: the
-    /// name of the claim under which it is written. None if it is no such file of this shot.
+    /// The claim under which a temporary file ([`AtomicFile`](super::AtomicFile)) is written, from
+    /// its name. None if it is not a temporary file of this shot.
     pub fn claim_of_temporary(&self, name: &str) -> Option<String> {
         let (target, mark) = name.strip_suffix(".tmp")?.rsplit_once('.')?;
         let is_own = mark.strip_prefix(MARK).is_some_and(is_random);
@@ -99,7 +99,7 @@ impl Names {
             .is_some_and(|rest| rest == "jsonl" || rest.ends_with(".jsonl"))
     }
 
-    /// STEM.SUFFIX, of what is assembled, one of [`ASSEMBLED`].
+    /// STEM.SUFFIX, the name of an assembled file; the suffix is one of [`ASSEMBLED`].
     pub fn assembled(&self, suffix: &str) -> String {
         format!("{}.{suffix}", self.stem)
     }

@@ -1,24 +1,24 @@
-//! Opening files in folders that others write to as well: a link is not followed out of the folder,
+//! Opening files in folders to which others write too: a link is not followed out of the folder,
 //! and a pipe is not waited for.
 
 use std::fs::{self, File, OpenOptions};
 use std::io::{self, ErrorKind};
 use std::path::Path;
 
-/// Opens the plain file at a path; made, if the options say so. Whoever exchanges it for a link in
-/// just this moment is found out, though the link may have been opened; nothing is written then.
+/// Opens the plain file at a path, creating it if the options say so. If it is exchanged for a link
+/// at just this moment, that is noticed: the link may have been opened, but nothing is written.
 ///
 /// # Errors
-/// Of the kind `AlreadyExists`, if something else is there; else as [`OpenOptions::open`].
+/// Of the kind `AlreadyExists` if something else is there; else as [`OpenOptions::open`].
 pub(super) fn open_plain(path: &Path, options: &OpenOptions) -> io::Result<File> {
     refuse_others(path)?;
     let file = options.open(path)?;
-    // A link that was put there meanwhile.
+    // A link may have been put there meanwhile.
     refuse_others(path)?;
     Ok(file)
 }
 
-/// Whether a folder is there, and not by a link.
+/// Whether a folder exists, and is not a link.
 pub(super) fn is_real_folder(path: &Path) -> bool {
     fs::symlink_metadata(path).is_ok_and(|data| data.is_dir())
 }

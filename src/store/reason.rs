@@ -1,13 +1,13 @@
-//! In words: what differs between what a frame was made of and what it should be made of.
+//! Reasons in words: the differences between the inputs of a frame as rendered and as they are now.
 
 use crate::frame::FrameFingerprint;
 use indexmap::IndexMap;
 
 type Parts = IndexMap<String, String>;
 
-/// How many differences are told one by one.
+/// Number of differences that are listed one by one.
 const TOLD: usize = 3;
-/// The part that changes with the renderer.
+/// The input that changes with the renderer.
 const EPOCH: &str = "epoch";
 
 /// Continues "stale because ". `version` is that of the program which made the frame of `was`.
@@ -30,15 +30,15 @@ pub(super) fn difference(was: &Parts, key: &FrameFingerprint, version: &str) -> 
     });
     let all: Vec<String> = changed.chain(gone).collect();
     match all.len() {
-        // Parts are what the fingerprint is made of; so its own making has changed.
+        // The inputs are equal, so that the method of the fingerprint has changed.
         0 => "its fingerprint is of another kind".to_owned(),
         n if n > TOLD => format!("{} and {} more", all[..TOLD].join(", "), n - TOLD),
         _ => all.join(", "),
     }
 }
 
-/// Whether a part stands as a hash, that tells a reader nothing: `#` and hexadecimal digits, or
-/// sixteen and more of them alone.
+/// Whether an input is shown as a hash, which says nothing to a reader: `#` and hexadecimal digits,
+/// or at least sixteen of them alone.
 fn is_hash(value: &str) -> bool {
     const SHORTEST: usize = 16;
     let value = value.trim_matches('"');

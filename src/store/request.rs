@@ -1,10 +1,10 @@
-//! Which pictures of a shot are asked for, and where they are.
+//! Which images of a shot are asked for, and their folder.
 
 use crate::render::Options;
 use crate::shot::{Format, LARGEST_SIDE, Shot};
 use std::path::PathBuf;
 
-/// Which pictures of a shot are asked for, and where they are.
+/// Size and sampling asked for in place of the shot's, and the folder of the pictures.
 ///
 /// # Example
 /// ```
@@ -18,7 +18,7 @@ pub struct Request {
     pub out: PathBuf,
     /// Factor on the image's size, above 0. Default: 1.
     pub scale: f64,
-    /// Samples a pixel in place of the shot's. Default: the shot's.
+    /// Samples per pixel in place of the shot's. Default: the shot's.
     pub samples: Option<u32>,
 }
 
@@ -54,7 +54,7 @@ impl Request {
         }
     }
 
-    /// Refuses a scale that makes an image of the shot larger than any may be.
+    /// Refuses a scale that makes an image of the shot larger than allowed.
     ///
     /// # Errors
     /// The size, the shot and the limit.

@@ -1,4 +1,4 @@
-//! A shot's frames in their folder: what each should be made of, and what is there.
+//! A shot's frames in their folder: the inputs of each, and the files that exist.
 
 use super::manifest::{FileRecord, Found, Manifests, Record};
 use super::names::Names;
@@ -15,18 +15,19 @@ use std::io;
 use std::path::PathBuf;
 use std::time::SystemTime;
 
-/// A shot's frames and their folder. Reads hashes, no meshes.
+/// A shot's frames and their folder. Opening it hashes the files that the shot names, and parses no
+/// mesh.
 #[derive(Debug)]
 pub struct ShotFolder {
-    /// What each frame is made of.
+    /// The fingerprint of each frame.
     pub keys: Fingerprints,
-    /// Where the files are; it need not exist.
+    /// Path of the folder; it need not exist.
     pub path: PathBuf,
-    /// What they are called.
+    /// Names of its files.
     pub names: Names,
-    /// Of finished frames, as the manifests had them when this was last read.
+    /// Records of finished frames, as of the last reading of the manifests.
     pub records: BTreeMap<u32, Record>,
-    /// Of others that were found whole.
+    /// Other frames that were found complete.
     found: BTreeMap<u32, Found>,
     /// Size, samples and layers of each.
     pub(crate) options: Options,
@@ -35,18 +36,18 @@ pub struct ShotFolder {
 /// Whether a frame has to be rendered.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Status {
-    /// It is there, and what it is made of has not changed.
+    /// The frame exists, and its inputs have not changed.
     Fresh,
-    /// There is nothing of it.
+    /// The frame does not exist.
     Missing,
-    /// It is there, but …
+    /// The frame exists but is not up to date.
     Stale {
         /// Continues "stale because ".
         reason: String,
     },
 }
 
-/// Why a shot's folder cannot be read.
+/// Reason why a shot's folder cannot be read.
 #[derive(Debug, thiserror::Error)]
 pub enum FolderError {
     /// Mistakes in the shot.
@@ -57,13 +58,13 @@ pub enum FolderError {
     Folder {
         /// The folder.
         folder: PathBuf,
-        /// Why.
+        /// The error.
         error: io::Error,
     },
 }
 
 impl ShotFolder {
-    /// The frames of a shot as asked for.
+    /// Opens the folder of a shot's frames.
     ///
     /// # Errors
     /// Files of the shot or of the folder that cannot be read.
@@ -74,8 +75,7 @@ impl ShotFolder {
         Ok(shot_folder)
     }
 
-    /// The same, but that the folder has not been looked at yet: what frames should be made of is
-    /// the same on every machine.
+    /// [`open`](Self::open) without a look at the folder: fingerprints are the same on every machine.
     ///
     /// # Errors
     /// Files of the shot that cannot be read.
@@ -105,7 +105,7 @@ impl ShotFolder {
     /// Reads the manifests again.
     ///
     /// # Errors
-    /// When the folder cannot be read.
+    /// If the folder cannot be read.
     pub fn refresh(&mut self) -> Result<(), FolderError> {
         let read = Manifests::read(&self.path, &self.names);
         let Manifests { records, found } = read.map_err(|error| FolderError::Folder {
@@ -116,7 +116,7 @@ impl ShotFolder {
         Ok(())
     }
 
-    /// The frames of which a file is there. A folder that cannot be read has none.
+    /// The frames of which a file exists. A folder that cannot be read has none.
     pub fn there(&self) -> BTreeSet<u32> {
         let entries = fs::read_dir(&self.path).into_iter().flatten();
         let frames = entries.filter_map(|entry| {
@@ -128,8 +128,8 @@ impl ShotFolder {
         frames.collect()
     }
 
-    /// Whether frames have to be rendered, in their order: of those that nothing is there of no key is
-    /// made.
+    /// Whether frames have to be rendered, in their order. Fingerprints are computed only for
+    /// frames that exist.
     pub fn statuses(&self, frames: &[u32]) -> Vec<Status> {
         let there = self.there();
         let status = |frame: &u32| match there.contains(frame) {
@@ -151,9 +151,9 @@ impl ShotFolder {
             .collect()
     }
 
-    /// Whether a frame has to be rendered: by its record, its files' lengths, and what their
-    /// headers say they are made of. Where no record tells, files that say the right thing are
-    /// decoded whole, so that a folder survives without its manifests.
+    /// Whether a frame has to be rendered, from its record, its files' lengths, and the
+    /// fingerprints in their headers. Without a record, files with the right fingerprint are
+    /// decoded completely, so that a folder survives the loss of its manifests.
     pub fn status(&self, frame: u32, key: &FrameFingerprint) -> Status {
         let files = self.files(frame);
         let lengths = self.lengths(frame);
@@ -192,7 +192,7 @@ impl ShotFolder {
         Status::Fresh
     }
 
-    /// What a manifest tells of a frame's files, if they are of the frame as it should be.
+    /// The manifest's records of a frame's files, if they are up to date.
     pub fn written(&self, frame: u32, key: &FrameFingerprint) -> Option<&[FileRecord]> {
         let record = self.records.get(&frame);
         let record = record.filter(|record| record.fingerprint == key.fingerprint);
@@ -207,15 +207,14 @@ impl ShotFolder {
         recorded.or_else(|| found.map(|found| found.files.as_slice()).filter(all))
     }
 
-    /// Lengths that a manifest tells of a frame's files, in their order.
+    /// Lengths of a frame's files according to the manifest, in their order.
     fn told(&self, frame: u32, key: &FrameFingerprint) -> Option<Vec<u64>> {
         let written = self.written(frame, key)?;
         let length = |name: String| Some(written.iter().find(|file| file.name == name)?.bytes);
         self.files(frame).into_iter().map(length).collect()
     }
 
-    /// What is to be written down of a frame that is fresh, so that it need not be decoded again;
-    /// nothing, if a manifest tells of it.
+    /// A record of a frame that is fresh but has none, so that it need not be decoded again.
     pub(crate) fn found(&self, frame: u32, key: &FrameFingerprint) -> Option<Found> {
         if self.told(frame, key).is_some() {
             return None;
@@ -253,7 +252,7 @@ impl ShotFolder {
         files.into_iter().map(|file| Some(file?.0)).collect()
     }
 
-    /// Whether all files that are there say that they are what `key` says.
+    /// Whether all existing files have the fingerprint of `key`.
     fn is_of(&self, files: &[String], key: &FrameFingerprint) -> bool {
         files.iter().all(|name| {
             let path = self.path.join(name);
@@ -261,7 +260,7 @@ impl ShotFolder {
         })
     }
 
-    /// Of files that say the right thing, but that no record tells the lengths of.
+    /// The status of files with the right fingerprint whose lengths no record states.
     fn decoded(&self, files: &[String]) -> Status {
         let size = self.keys.resolution().size;
         let broken = |name: &&String| !fingerprint::is_whole(&self.path.join(name), size);
@@ -274,6 +273,6 @@ impl ShotFolder {
     }
 }
 
-/// The lengths and times of a frame's files; empty where none was looked at.
+/// Lengths and modification times of a frame's files; empty if none was looked at.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct FileStamps(Vec<Option<(u64, Option<SystemTime>)>>);

@@ -5,7 +5,7 @@ use std::path::Path;
 use std::thread;
 use std::time::Duration;
 
-/// An error with the path that could not be written and what to do about it.
+/// An error with the path that could not be written, and a remedy.
 pub fn explain(path: &Path, error: &io::Error) -> io::Error {
     let folder = folder_of(path).display();
     let remedy = match error.kind() {
@@ -33,7 +33,7 @@ pub fn explain(path: &Path, error: &io::Error) -> io::Error {
     )
 }
 
-/// Whether the disk, the quota or the limit on file sizes is used up: retrying is of no use before
+/// Whether the disk, the quota or the limit on file sizes is exhausted: retrying is useless before
 /// somebody makes room.
 pub(crate) fn is_full(error: &io::Error) -> bool {
     matches!(
@@ -42,7 +42,7 @@ pub(crate) fn is_full(error: &io::Error) -> bool {
     )
 }
 
-/// Calls `act` a second time, after a pause, if it failed for a reason that may pass.
+/// Calls `act` a second time, after a pause, if it failed for a reason that may be temporary.
 pub(crate) fn twice(mut act: impl FnMut() -> io::Result<()>) -> io::Result<()> {
     const PAUSE: Duration = Duration::from_millis(200);
     act().or_else(|error| {
@@ -54,7 +54,7 @@ pub(crate) fn twice(mut act: impl FnMut() -> io::Result<()>) -> io::Result<()> {
     })
 }
 
-/// The folder that a path lies in.
+/// The folder that contains a path.
 pub(super) fn folder_of(path: &Path) -> &Path {
     match path.parent() {
         Some(folder) if folder != Path::new("") => folder,

@@ -20,7 +20,7 @@ struct Effect {
     paper: Option<&'static str>,
 }
 
-fn effects(called: &ActiveEffects) -> [Effect; 6] {
+fn effects(active: &ActiveEffects) -> [Effect; 6] {
     let effect = |name, called, off| Effect {
         name,
         called,
@@ -30,18 +30,18 @@ fn effects(called: &ActiveEffects) -> [Effect; 6] {
     [
         Effect {
             paper: Some("under 5 %"),
-            ..effect("geometry", called.geometry, |e| e.geometry = Switch::Off)
+            ..effect("geometry", active.geometry, |e| e.geometry = Switch::Off)
         },
         Effect {
             paper: Some("about 2 % by splines, over 100 % by lines"),
-            ..effect("doppler", called.doppler, |e| e.doppler = Switch::Off)
+            ..effect("doppler", active.doppler, |e| e.doppler = Switch::Off)
         },
-        effect("beaming", called.beaming != Beaming::Off, |e| {
+        effect("beaming", active.beaming != Beaming::Off, |e| {
             e.beaming = Beaming::Off;
         }),
-        effect("thermal", called.thermal, |e| e.thermal = Switch::Off),
-        effect("shadows", called.shadows, |e| e.shadows = Switch::Off),
-        effect("mirror", called.mirror || called.refraction, |e| {
+        effect("thermal", active.thermal, |e| e.thermal = Switch::Off),
+        effect("shadows", active.shadows, |e| e.shadows = Switch::Off),
+        effect("mirror", active.mirror || active.refraction, |e| {
             e.bounces = 0;
         }),
     ]
@@ -54,23 +54,23 @@ const PAIRS: u32 = 3;
 pub(super) fn costs(
     start: &Start<'_>,
     library: &Library,
-    called: &ActiveEffects,
+    active: &ActiveEffects,
     subject: &Subject,
     rounds: u32,
 ) -> Result<Vec<EffectCost>, StudyError> {
     let on = start.as_it_is();
     let mut costs = Vec::new();
-    for effect in effects(called) {
+    for effect in effects(active) {
         let off = Variant {
             shot: without(start.shot, effect.off),
             ..on.clone()
         };
         let named = match effect.name {
             // The two are switched off together.
-            "mirror" if !called.mirror && called.refraction => "refraction",
+            "mirror" if !active.mirror && active.refraction => "refraction",
             name => name,
         };
-        let why = called.reasons.iter().find(|reason| reason.effect == named);
+        let why = active.reasons.iter().find(|reason| reason.effect == named);
         let why = why.map_or_else(String::new, |reason| reason.why.clone());
         costs.push(EffectCost {
             effect: effect.name,
@@ -123,10 +123,10 @@ fn second_worldline(
     let called = others > 0;
     let off = if called {
         let scene = Scene::resolve(&Frame::new(&shot, start.frame)?, library, None)?;
-        let stage = build_aggregate(&scene.geometry, None);
+        let aggregate = build_aggregate(&scene.geometry, None);
         Variant {
             shot,
-            bodies: Arc::new(Bodies { scene, stage }),
+            bodies: Arc::new(Bodies { scene, aggregate }),
             ..on.clone()
         }
     } else {

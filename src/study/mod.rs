@@ -7,6 +7,7 @@
 //! spectra are exact, other knobs and effects are studied with the grid.
 
 mod compare_1990;
+mod defaults;
 pub mod displacement;
 mod effects;
 mod error;

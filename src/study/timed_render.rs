@@ -19,7 +19,7 @@ use std::time::Instant;
 /// A scene and its trees, ready for rays.
 pub(super) struct Bodies {
     pub(super) scene: Scene,
-    pub(super) stage: Aggregate,
+    pub(super) aggregate: Aggregate,
 }
 
 /// The image whose variants are rendered.
@@ -102,23 +102,30 @@ pub(super) struct Run {
 impl Variant {
     /// The image, ready for rays.
     pub(super) fn view(&self, subject: &Subject) -> Result<View<'_>, StudyError> {
-        let (scene, stage) = (&self.bodies.scene, &self.bodies.stage);
+        let (scene, aggregate) = (&self.bodies.scene, &self.bodies.aggregate);
         let frame = Frame::new(&self.shot, subject.frame)?;
-        Ok(View::new(&frame, &frame.effects, scene, stage))
+        Ok(View::new(&frame, &frame.effects, scene, aggregate))
     }
 
     /// Renders the variant once.
     pub(super) fn run(&self, subject: &Subject) -> Result<Run, StudyError> {
         let counts = forget_peak();
         let profile = Profile::default();
-        let (scene, stage) = (&self.bodies.scene, &self.bodies.stage);
+        let (scene, aggregate) = (&self.bodies.scene, &self.bodies.aggregate);
         let begun = Instant::now();
         let frame = &Frame::new(&self.shot, subject.frame)?;
-        let film = render_profiled(frame, scene, stage, &self.options, &|_| (), Some(&profile));
+        let film = render_profiled(
+            frame,
+            scene,
+            aggregate,
+            &self.options,
+            &|_| (),
+            Some(&profile),
+        );
         let rendered = Instant::now();
         let member = Member { frame, scene };
         let size = [film.width, film.height];
-        let insets = probe::insets(member, stage, subject.stops, size);
+        let insets = probe::insets(member, aggregate, subject.stops, size);
         let Pictures { files, .. } = encode(
             frame,
             scene,

@@ -28,19 +28,19 @@ pub fn study(
 ) -> Result<Study, StudyError> {
     let shot = &prepared.shot;
     let frame = Frame::new(shot, request.frame)?;
-    let called = frame.active_effects(&frame.effects);
+    let active = frame.active_effects(&frame.effects);
     let (exposing, _) = prepared.exposure()?;
     let subject = Subject::new(&frame, &exposing, request.scratch.clone());
     let scene = Scene::resolve(&frame, &prepared.library, None)?;
-    let stage = build_aggregate(&scene.geometry, None);
+    let aggregate = build_aggregate(&scene.geometry, None);
     let start = Start {
         shot,
         frame: frame.number,
         options: request.options.clone(),
-        bodies: Arc::new(Bodies { scene, stage }),
+        bodies: Arc::new(Bodies { scene, aggregate }),
     };
     news("what is compared with the paper, and how much equal work differs");
-    let compared = compare(&start, &called, &subject, request.repeats)?;
+    let compared = compare(&start, &active, &subject, request.repeats)?;
     let noise = noise(&compared);
     let mut sweeps = Vec::new();
     let quick = by_grid(shot);
@@ -51,7 +51,7 @@ pub fn study(
     for (number, knob) in KNOBS.into_iter().enumerate() {
         // Spectra are the first knob.
         let start = if number == 0 { &start } else { &quick };
-        let knob = knob(start, &called);
+        let knob = knob(start, &active);
         news(&format!("{}: {} settings", knob.key, knob.variants.len()));
         sweeps.push(sweep::sweep(
             &knob,
@@ -64,7 +64,7 @@ pub fn study(
     let effects = effects::costs(
         &quick,
         &prepared.library,
-        &called,
+        &active,
         &subject,
         request.repeats,
     )?;
@@ -76,8 +76,8 @@ pub fn study(
         spline,
         grid,
         lines_seen: knobs::lines_seen(shot, 5.0),
-        geometry: called.geometry,
-        doppler: called.doppler,
+        geometry: active.geometry,
+        doppler: active.doppler,
     };
     Ok(Study {
         schema_version: 1,
@@ -117,7 +117,7 @@ fn by_grid(shot: &Shot) -> Shot {
 /// The renders to compare: the shot twice; without shift; by lines, splines and the grid.
 fn compare(
     start: &Start<'_>,
-    called: &ActiveEffects,
+    active: &ActiveEffects,
     subject: &Subject,
     rounds: u32,
 ) -> Result<[Measured; 6], StudyError> {
@@ -136,7 +136,7 @@ fn compare(
     let variants = [
         start.as_it_is(),
         start.as_it_is(),
-        knobs::without_shift(start, called),
+        knobs::without_shift(start, active),
         if knobs::lines_seen(start.shot, 5.0) {
             held(Spectra::Lines, 84)
         } else {

@@ -196,11 +196,11 @@ impl Wall {
     fn shader(&mut self, shading: &Shading, material: Material, accuracy: Accuracy) -> Shader {
         self.scene.materials[0] = material;
         self.scene.lights[0].spectrum = Arc::clone(&shading.lamp);
-        let called = Frame::new(&self.shot, 1)
+        let effects = Frame::new(&self.shot, 1)
             .unwrap()
             .active_effects(&self.shot.effects);
         let settings = Settings {
-            called: &called,
+            effects: &effects,
             accuracy: &accuracy,
             sensor: &Sensor::new(&self.shot.sensor),
             reach: shading.doppler.ln().abs() + 1e-9,

@@ -114,7 +114,7 @@ impl Run {
             0 => step <= 1,
             _ => step == u32::from(trace != first.trace),
         };
-        let effects = first.called.names() == next.called.names();
+        let effects = first.effects.names() == next.effects.names();
         next.frame == frame + 1 && same_step && first.status == next.status && effects
     }
 }
@@ -147,19 +147,19 @@ struct Effects {
 
 impl<'a> Frame<'a> {
     fn of(planned: &'a FrameForecast) -> Self {
-        let called = &planned.called;
+        let effects = &planned.effects;
         Self {
             frame: planned.frame,
             effects: Effects {
-                geometry: called.geometry,
-                doppler: called.doppler,
-                beaming: called.beaming != Beaming::Off,
-                thermal: called.thermal,
-                shadows: called.shadows,
-                mirror: called.mirror,
-                refraction: called.refraction,
+                geometry: effects.geometry,
+                doppler: effects.doppler,
+                beaming: effects.beaming != Beaming::Off,
+                thermal: effects.thermal,
+                shadows: effects.shadows,
+                mirror: effects.mirror,
+                refraction: effects.refraction,
             },
-            because: &called.reasons,
+            because: &effects.reasons,
             trace: planned.trace,
             status: word(&planned.status),
             seconds: planned.seconds,

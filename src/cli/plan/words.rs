@@ -40,7 +40,7 @@ pub(super) fn head(shot_folder: &ShotFolder, totals: &Totals) -> String {
 
 pub(super) fn line(run: &Run) -> String {
     let (first, [last_frame, last_trace]) = (&run.first, run.last);
-    let effects = first.called.names();
+    let effects = first.effects.names();
     let effects = match effects.as_slice() {
         [] => "no effects".to_owned(),
         names => names.join(", "),
@@ -56,9 +56,9 @@ pub(super) fn line(run: &Run) -> String {
 
 /// Reasons for the effects, with those of the same reason together.
 pub(super) fn sentences(planned: &FrameForecast) -> Vec<String> {
-    let names = planned.called.names();
+    let names = planned.effects.names();
     let mut effects: IndexMap<&str, Vec<&str>> = IndexMap::new();
-    for reason in &planned.called.reasons {
+    for reason in &planned.effects.reasons {
         if names.iter().any(|name| name == reason.effect) {
             effects.entry(&reason.why).or_default().push(reason.effect);
         }

@@ -1,17 +1,17 @@
-//! Seconds a frame, phase upon phase, as a drawing whose bars lead to the frames.
+//! Chart of seconds per frame, stacked by phase, whose bars link to the frames.
 //!
-//! The drawing holds bars alone and is stretched to the page's width, so that 1000 frames find
-//! room; what is written beside it is text of the page, which keeps its size.
+//! The drawing contains only bars and is stretched to the page's width, so that there is room for
+//! 1000 frames; labels beside it are text of the page, which keeps its size.
 
 use super::frame_row::FrameRow;
 use crate::plot::quantity::{number, time, unit_of_time};
 use crate::store::Seconds;
 use maud::{Markup, html};
 
-/// The name of a phase, and its part of a frame's seconds.
+/// The name of a phase, and its share of a frame's seconds.
 type Phase = (&'static str, fn(&Seconds) -> f64);
 
-/// The phases of a frame, the first lowermost.
+/// The phases of a frame, stacked from below in this order.
 pub(super) const PHASES: [Phase; 5] = [
     ("prepare", |s| s.prepare),
     ("trace", |s| s.trace),
@@ -20,13 +20,13 @@ pub(super) const PHASES: [Phase; 5] = [
     ("write", |s| s.write),
 ];
 
-/// Height of the drawing in its own units; a frame is [`PITCH`] wide there.
+/// Height of the drawing in its own units, in which a frame is [`PITCH`] wide.
 const HEIGHT: f64 = 1000.0;
 const PITCH: f64 = 10.0;
-/// What a bar leaves free of it.
+/// Space between bars.
 const GAP: f64 = 1.0;
 
-/// The section; none where no frame has a record.
+/// The section; empty if no frame has a record.
 pub(super) fn section(rows: &[FrameRow<'_>]) -> Markup {
     let longest = rows
         .iter()
@@ -133,7 +133,7 @@ fn bar(place: usize, row: &FrameRow<'_>, scale: &Scale) -> Markup {
     }
 }
 
-/// Which phase, from where to where; without those too small to be drawn.
+/// For each phase its lower and upper end, without those too small to be drawn.
 fn stacked(seconds: &Seconds, scale: &Scale) -> Vec<(usize, f64, f64)> {
     let mut below = 0.0;
     let mut parts = Vec::new();
@@ -161,8 +161,8 @@ fn tip(row: &FrameRow<'_>) -> String {
     }
 }
 
-/// Bars that are named below the drawing, from 1: the first, and the multiples of 1, 2 or 5 times a power
-/// of ten, of which there are at most ten.
+/// Bars with labels, from 1: the first, and the multiples of 1, 2 or 5 times a power of ten, of
+/// which there are at most ten.
 fn labels(frames: usize) -> Vec<usize> {
     let steps = (0..).flat_map(|power| [1, 2, 5].map(|digit| digit * 10_usize.pow(power)));
     let step = steps

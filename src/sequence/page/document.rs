@@ -1,4 +1,4 @@
-//! The page as a whole, and whether it would tell anything new.
+//! The page as a whole, and whether writing it again would change anything.
 
 use super::frame_row::{Contents, Found, Outcomes, find, fitting};
 use super::{chart, head, pictures, table};
@@ -18,10 +18,10 @@ use std::path::PathBuf;
 const EPOCH: u32 = 2;
 
 /// Writes the page of a shot whose records have been read since the last frame was finished, and
-/// returns where it is; none if it was asked to stop before.
+/// returns its path; None if asked to stop before.
 ///
 /// # Errors
-/// When it cannot be written. What is wrong with frames stands on the page.
+/// If it cannot be written. Faults of frames are shown on the page.
 pub fn write(
     shot_folder: &ShotFolder,
     outcomes: &Outcomes,
@@ -34,14 +34,14 @@ pub fn write(
     };
     let path = shot_folder.path.join(PAGE);
     write_atomically(&path, text(shot_folder, &contents).as_bytes())?;
-    // A page that is not remembered is only written again.
+    // If this fails, the page is only written again next time.
     let _unremembered = freshness::remember(shot_folder, PAGE, key);
     Ok(Some(path))
 }
 
-/// Whether the page is there and would tell no more if a run that did this wrote it again: which
-/// takes as long as to read all pictures. That frames which it calls rendered have been kept since
-/// is nothing new.
+/// Whether the page exists and a run with these outcomes would not change it, since writing it
+/// takes as long as reading all images. It does not count as a change that frames which it lists as
+/// rendered are kept now.
 pub fn is_fresh(shot_folder: &ShotFolder, outcomes: &Outcomes) -> bool {
     let kept = outcomes
         .values()
@@ -73,7 +73,7 @@ fn text(shot_folder: &ShotFolder, contents: &Contents<'_>) -> String {
     page.into_string()
 }
 
-/// Hash of all that a page is made of but the pixels, which the frames' fingerprints stand for, and
+/// Hash of all inputs of a page except the pixels, which the frames' fingerprints represent, and
 /// whether a run rendered or kept what is there.
 fn key(shot_folder: &ShotFolder, outcomes: &Outcomes, found: &Found) -> String {
     let shot = shot_folder.shot();

@@ -1,4 +1,4 @@
-//! One frame as the page tells of it.
+//! One frame on the page.
 
 use super::thumbnail::{Thumbnail, small};
 use crate::frame::{Caption, Frame};
@@ -11,11 +11,11 @@ use crate::store::{Record, ShotFolder, Status};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 
-/// What the run that writes the page did about the frames that it was asked for, by number; empty
-/// where it rendered nothing.
+/// Outcomes of the frames that the writing run was asked for, by number; empty if it rendered
+/// nothing.
 pub type Outcomes = BTreeMap<u32, FrameOutcome>;
 
-/// Whether a frame is there, and why.
+/// Whether a frame exists, and why not.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) enum State {
     Rendered { reason: String },
@@ -28,7 +28,7 @@ pub(super) enum State {
 }
 
 impl State {
-    /// The word for it, which is also its class.
+    /// The word for it, which is also its CSS class.
     pub(super) fn word(&self) -> &'static str {
         match self {
             Self::Rendered { .. } => "rendered",
@@ -41,7 +41,7 @@ impl State {
         }
     }
 
-    /// Why it is so, where that is not plain.
+    /// The reason, if it needs one.
     pub(super) fn reason(&self) -> Option<&str> {
         match self {
             Self::Rendered { reason }
@@ -52,7 +52,7 @@ impl State {
         }
     }
 
-    /// Whether somebody has to do something about it.
+    /// Whether the user should act on it.
     pub(super) fn is_amiss(&self) -> bool {
         matches!(
             self,
@@ -65,33 +65,32 @@ impl State {
 pub(super) struct FrameRow<'a> {
     pub(super) frame: u32,
     pub(super) state: State,
-    /// None where there is no picture that can be shown.
+    /// None if there is no image that can be shown.
     pub(super) picture: Option<Thumbnail>,
-    /// URL of its full picture beside the page.
+    /// URL of its full image beside the page.
     pub(super) full: Option<String>,
     pub(super) record: Option<&'a Record>,
     pub(super) caption: Option<Caption>,
 }
 
-/// What a page tells of: frames that are there or that a run was to make, and where there are more,
-/// runs of those that are not.
+/// Contents of a page: frames that exist or that a run was to make; and runs of the other frames.
 pub(super) struct Contents<'a> {
-    /// How many frames the shot has.
+    /// Number of frames of the shot.
     pub(super) frames: u32,
-    /// Those that are shown one by one, ascending.
+    /// Frames that are shown one by one, ascending.
     pub(super) rows: Vec<FrameRow<'a>>,
-    /// The runs of all others.
+    /// Runs of all other frames.
     pub(super) gaps: Vec<Run>,
 }
 
-/// One thing of a page's contents.
+/// One entry of a page's contents.
 pub(super) enum Entry<'a> {
     Frame(&'a FrameRow<'a>),
     Gap(&'a Run),
 }
 
 impl<'a> Contents<'a> {
-    /// Of a shot as it was found; none if asked to stop.
+    /// The contents for the frames found; None if asked to stop.
     pub(super) fn new(
         shot_folder: &'a ShotFolder,
         outcomes: &Outcomes,
@@ -110,7 +109,7 @@ impl<'a> Contents<'a> {
         })
     }
 
-    /// All of it in the order of frames.
+    /// All entries in the order of frames.
     pub(super) fn entries(&self) -> impl Iterator<Item = Entry<'_>> {
         let mut gaps = self.gaps.iter().peekable();
         let mut rows = self.rows.iter().peekable();
@@ -124,7 +123,7 @@ impl<'a> Contents<'a> {
     }
 }
 
-/// `3–17`, as of frames.
+/// A run as `3–17`.
 pub(super) fn span(run: &Run) -> String {
     match (run.start(), run.end()) {
         (first, last) if first == last => first.to_string(),
@@ -133,7 +132,7 @@ pub(super) fn span(run: &Run) -> String {
 }
 
 impl<'a> FrameRow<'a> {
-    /// One of so many frames that are shown.
+    /// The row of one of this many frames.
     fn one(
         shot_folder: &'a ShotFolder,
         outcomes: &Outcomes,
@@ -176,22 +175,22 @@ impl<'a> FrameRow<'a> {
     }
 }
 
-/// The record of a frame, if it is of the frame as it should be: a run that was killed between a
-/// picture and its record leaves that of an older one.
+/// The record of a frame, if it is up to date: a run killed between an image and its record leaves
+/// that of an older image.
 pub(super) fn fitting(shot_folder: &ShotFolder, frame: u32) -> Option<&Record> {
     let record = shot_folder.records.get(&frame)?;
     (record.fingerprint == shot_folder.keys.frame(frame).fingerprint).then_some(record)
 }
 
-/// What there is of a shot's frames.
+/// The frames of a shot in its folder.
 pub(super) struct Found {
-    /// Those that are there or that a run was to make, and those between in short gaps.
+    /// Frames that exist or that a run was to make, and those in short gaps between.
     pub(super) frames: Vec<(u32, Status)>,
-    /// Runs of others, longer ones.
+    /// Longer runs of other frames.
     pub(super) gaps: Vec<Run>,
 }
 
-/// Looks at a shot's frames; those that nobody made cost nothing.
+/// Looks for a shot's frames; those that nobody made cost nothing.
 pub(super) fn find(shot_folder: &ShotFolder, outcomes: &Outcomes) -> Found {
     let mut shown = shot_folder.there();
     shown.extend(outcomes.keys());
@@ -206,7 +205,7 @@ pub(super) fn find(shot_folder: &ShotFolder, outcomes: &Outcomes) -> Found {
     }
 }
 
-/// Of a frame that is there and as it should be.
+/// The state of a frame that exists and is up to date.
 fn told(outcome: Option<&FrameOutcome>) -> State {
     match outcome {
         Some(FrameOutcome::Rendered { reason, .. }) => State::Rendered {

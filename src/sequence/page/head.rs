@@ -1,4 +1,4 @@
-//! What stands above the frames: which shot, what became of it, and what is wrong.
+//! The part of the page above the frames: the shot, the outcome of the run, warnings.
 
 use super::super::output::OUTPUTS;
 use super::frame_row::{Contents, Entry, FrameRow, beside, span};
@@ -18,7 +18,7 @@ fn title(shot_folder: &ShotFolder) -> &str {
         .unwrap_or(&shot_folder.names.stem)
 }
 
-/// The `head` of the page. It allows pictures from its folder and nothing from anywhere else.
+/// The `head` of the page. It allows images from its folder and nothing from anywhere else.
 pub(super) fn head(shot_folder: &ShotFolder) -> Markup {
     html! {
         head {
@@ -47,7 +47,7 @@ pub(super) fn opening(shot_folder: &ShotFolder, contents: &Contents<'_>) -> Mark
     }
 }
 
-/// What is amiss, and what the frames' records warn of, each with its frames.
+/// Faults, and warnings of the frames' records, each with its frames.
 fn warnings(contents: &Contents<'_>) -> Markup {
     let mut frames: IndexMap<String, Vec<Run>> = IndexMap::new();
     for entry in contents.entries() {
@@ -81,7 +81,7 @@ fn warnings(contents: &Contents<'_>) -> Markup {
     }
 }
 
-/// Adds a run behind others.
+/// Adds a run after others.
 fn add(runs: &mut Vec<Run>, run: Run) {
     match runs.last_mut() {
         Some(last) if last.end() + 1 == *run.start() => *last = *last.start()..=*run.end(),
@@ -99,7 +99,7 @@ fn counts(contents: &Contents<'_>) -> String {
         let shown = contents.rows.iter().filter(|v| v.state.word() == word);
         let missing = if word == "missing" { gaps } else { 0 };
         let count = shown.count() + missing as usize;
-        // That nothing is missing is what one wants to read.
+        // Users look for the statement that nothing is missing.
         if count > 0 || matches!(word, "missing" | "failed") {
             counts.insert(word, count);
         }

@@ -1,10 +1,11 @@
-//! Pictures on the page: all frames side by side, and one large in a player.
+//! Images on the page: all frames side by side, and one large in a player.
 
 use super::frame_row::{Contents, Entry, FrameRow, span};
 use crate::store::ShotFolder;
 use maud::{Markup, PreEscaped, html};
 
-/// All frames side by side. Each picture leads to its row of the table, and with scripts to the player.
+/// All frames side by side. Each image links to its row of the table and, with scripts, to the
+/// player.
 pub(super) fn grid(contents: &Contents<'_>) -> Markup {
     html! {
         section aria-labelledby="all" {
@@ -35,7 +36,7 @@ fn cell(row: &FrameRow<'_>) -> Markup {
     }
 }
 
-/// One frame large, a slider and a button to play them all; hidden until the script shows it.
+/// One frame large, with a slider and a play button; hidden until the script shows it.
 pub(super) fn player(shot_folder: &ShotFolder, contents: &Contents<'_>) -> Markup {
     let [width, height] = shot_folder.keys.resolution().size;
     html! {
@@ -56,7 +57,7 @@ pub(super) fn player(shot_folder: &ShotFolder, contents: &Contents<'_>) -> Marku
     }
 }
 
-/// The player's script, which goes behind all that it moves.
+/// The player's script, after everything that it moves.
 pub(super) fn script() -> Markup {
     html! { script { (PreEscaped(include_str!("player.js"))) } }
 }

@@ -1,4 +1,4 @@
-//! All frames as a table: what is known of each, and what it is made of.
+//! All frames as a table: facts and inputs of each.
 
 use super::chart::PHASES;
 use super::frame_row::{Contents, Entry, FrameRow, beside, span};
@@ -8,10 +8,10 @@ use crate::relativity::Celerity;
 use crate::store::Record;
 use maud::{Markup, html};
 
-/// A column, which is left out where no frame has anything in it.
+/// A column, which is left out if it is empty in all rows.
 struct Column {
     title: &'static str,
-    /// Of numbers, which stand at the right.
+    /// CSS class of columns of numbers, which are aligned right.
     class: Option<&'static str>,
     cell: fn(&FrameRow<'_>) -> Option<String>,
 }
@@ -138,7 +138,7 @@ fn table_row(row: &FrameRow<'_>, columns: &[&Column], common: &[(&str, &str)]) -
     }
 }
 
-/// What a frame does not share with all others, and its files.
+/// Inputs of a frame that it does not share with all others, and its files.
 fn made_of(record: &Record, common: &[(&str, &str)]) -> Markup {
     let own = record
         .parts
@@ -164,7 +164,7 @@ fn list<'a>(parts: impl Iterator<Item = (&'a str, &'a str)>) -> Markup {
     }
 }
 
-/// What the frames with a record are all made of, so that it is said once.
+/// Inputs that all frames with a record share, listed once.
 fn common_parts<'a>(rows: &[FrameRow<'a>]) -> Vec<(&'a str, &'a str)> {
     let mut records = rows.iter().filter_map(|row| row.record);
     let Some(first) = records.next() else {
@@ -181,7 +181,7 @@ fn common_parts<'a>(rows: &[FrameRow<'a>]) -> Vec<(&'a str, &'a str)> {
     common
 }
 
-/// β, or what it lacks to 1 where that is little.
+/// β, or 1 − β if that is small.
 fn beta(w: Celerity) -> String {
     let beta = w.beta().length();
     let lorentz_factor = w.lorentz_factor();
@@ -194,8 +194,8 @@ fn beta(w: Celerity) -> String {
     }
 }
 
-/// Up to four decimals and six digits, without zeros at the end; three digits and a power of ten far
-/// from 1.
+/// Up to four decimals and six digits, without trailing zeros; three digits and a power of ten if
+/// far from 1.
 fn digits(value: f64) -> String {
     let decimals = match value.abs() {
         0.0 => 0,

@@ -1,4 +1,4 @@
-//! A frame's small picture, as a text that stands in the page.
+//! A frame's thumbnail, as text embedded in the page.
 
 use crate::sequence::frame_image::FrameImage;
 use base64::prelude::{BASE64_STANDARD, Engine};
@@ -6,24 +6,24 @@ use image::codecs::jpeg::JpegEncoder;
 use image::imageops::thumbnail;
 use image::{ExtendedColorType, RgbImage};
 
-/// Pixels in a row of the largest, which is what the player shows while it plays.
+/// Width of the largest, which the player shows while it plays, in pixels.
 const WIDEST: u32 = 640;
-/// Pixels in a row of the smallest, however many bytes it has.
+/// Width of the smallest, however many bytes it has, in pixels.
 const NARROWEST: u32 = 64;
-/// Of JPEG, from 1 to 100.
+/// JPEG quality, from 1 to 100.
 const QUALITY: u8 = 80;
-/// Bytes of all pictures of a page together, as they stand there.
+/// Bytes of all images of a page together, as embedded.
 const BUDGET: usize = 11_000_000;
 
-/// A small picture.
+/// A thumbnail.
 pub(super) struct Thumbnail {
-    /// Pixels in a row, and rows, of the frame it is of.
+    /// Width and height of the frame, in pixels.
     pub(super) size: [u32; 2],
     /// `data:image/jpeg;base64,…`
     pub(super) url: String,
 }
 
-/// The small picture of one of so many frames: as large as the page can bear.
+/// The thumbnail of one of this many frames, as large as the page can bear.
 pub(super) fn small(image: FrameImage, frames: u32) -> Option<Thumbnail> {
     let size = [image.width, image.height];
     let image = RgbImage::from_raw(image.width, image.height, image.rgb8)?;
@@ -34,7 +34,7 @@ pub(super) fn small(image: FrameImage, frames: u32) -> Option<Thumbnail> {
     Some(Thumbnail { size, url })
 }
 
-/// The picture as JPEG of at most so many bytes, unless it is of the smallest size.
+/// The image as JPEG of at most `most` bytes, unless it has the smallest size.
 fn fitting(image: &RgbImage, most: usize) -> Option<Vec<u8>> {
     let mut width = image.width().min(WIDEST);
     loop {
@@ -42,7 +42,7 @@ fn fitting(image: &RgbImage, most: usize) -> Option<Vec<u8>> {
         if bytes.len() <= most || width <= NARROWEST {
             return Some(bytes);
         }
-        // Bytes go about as pixels do; a little less, so that few rounds are needed.
+        // Bytes are about proportional to pixels; a little less, so that few rounds are needed.
         let shrink = (most as f64 / bytes.len() as f64).sqrt() * 0.95;
         width = ((f64::from(width) * shrink) as u32).max(NARROWEST);
     }
@@ -50,7 +50,7 @@ fn fitting(image: &RgbImage, most: usize) -> Option<Vec<u8>> {
 
 fn encoded(image: &RgbImage, width: u32) -> Option<Vec<u8>> {
     let rows = f64::from(image.height()) * f64::from(width) / f64::from(image.width());
-    // JPEG has no sides above 65535; pictures higher than 64 times their width are cut short.
+    // JPEG has no sides above 65535; images higher than 64 times their width are cut short.
     let height = (rows.round() as u32).clamp(1, width * 64);
     let small = thumbnail(image, width, height);
     let mut bytes = Vec::new();

@@ -107,11 +107,11 @@ struct Throughput<C> {
 impl<B: CoefficientBasis> CoefficientShader<B> {
     /// Prepares a scene's spectra. The axis is that of its curves.
     pub(super) fn new(scene: &Scene, settings: &Settings<'_>, axis: LogAxis, basis: B) -> Self {
-        let walk = TreeWalk::new(scene, settings.called);
+        let walk = TreeWalk::new(scene, settings.effects);
         let hold = Hold {
             basis: &basis,
             axis,
-            thermal: settings.called.thermal,
+            thermal: settings.effects.thermal,
         };
         let emitters = walk.emitters().iter();
         Self {

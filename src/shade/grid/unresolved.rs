@@ -66,7 +66,7 @@ pub fn unresolved(scene: &Scene, settings: &Settings<'_>) -> Vec<Unresolved> {
     let is_fine = |spectrum: &Spectrum| Fine::is_worth_a_look(axis, spectrum);
     let lamps = scene.lights.iter().any(|light| is_fine(&light.spectrum));
     let surfaces = scene.materials.iter().flat_map(reflectances).any(is_fine);
-    if !settings.called.doppler || !grid || !lamps || !surfaces {
+    if !settings.effects.doppler || !grid || !lamps || !surfaces {
         return Vec::new();
     }
     let exact = settings.quadrature();

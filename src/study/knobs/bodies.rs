@@ -27,12 +27,12 @@ pub(super) fn tessellation(start: &Start<'_>) -> Knob {
     let bodies = |level: u32| {
         let scene = &start.bodies.scene;
         let geometry = Arc::new(spheres::tessellated(&scene.geometry, level)?);
-        let stage = build_aggregate(&geometry, None);
+        let aggregate = build_aggregate(&geometry, None);
         let scene = Scene {
             geometry,
             ..scene.clone()
         };
-        Some(Arc::new(Bodies { scene, stage }))
+        Some(Arc::new(Bodies { scene, aggregate }))
     };
     let variant = |level: u32| {
         let triangles = 20 * 4_u32.pow(level);

@@ -10,7 +10,7 @@ const BOUNCES: [u32; 7] = [0, 1, 2, 3, 4, 8, 16];
 const CUTOFFS: [f64; 6] = [0.3, 0.1, 0.01, 1e-3, 1e-4, 1e-6];
 
 /// The knob `effects.bounces`.
-pub(super) fn bounces(start: &Start<'_>, called: &ActiveEffects) -> Knob {
+pub(super) fn bounces(start: &Start<'_>, active: &ActiveEffects) -> Knob {
     let mut knob = Knob::new(
         "effects.bounces",
         "surfaces",
@@ -37,7 +37,7 @@ pub(super) fn bounces(start: &Start<'_>, called: &ActiveEffects) -> Knob {
             )
         }
     };
-    if no_branches(&mut knob, called) {
+    if no_branches(&mut knob, active) {
         return knob;
     }
     let (own, cutoff) = (start.shot.effects.bounces, start.shot.accuracy.cutoff);
@@ -52,14 +52,14 @@ pub(super) fn bounces(start: &Start<'_>, called: &ActiveEffects) -> Knob {
 }
 
 /// The knob `accuracy.cutoff`.
-pub(super) fn cutoff(start: &Start<'_>, called: &ActiveEffects) -> Knob {
+pub(super) fn cutoff(start: &Start<'_>, active: &ActiveEffects) -> Knob {
     let mut knob = Knob::new(
         "accuracy.cutoff",
         "surfaces",
         "the share of mirrored and refracted light that is not followed",
     );
     knob.reference = "the same number of bounces, nothing cut off";
-    if no_branches(&mut knob, called) {
+    if no_branches(&mut knob, active) {
         return knob;
     }
     let own = start.shot.accuracy.cutoff;
@@ -87,8 +87,8 @@ pub(super) fn cutoff(start: &Start<'_>, called: &ActiveEffects) -> Knob {
 }
 
 /// Whether the image has neither mirror nor glass; adds a note then.
-fn no_branches(knob: &mut Knob, called: &ActiveEffects) -> bool {
-    let none = !called.mirror && !called.refraction;
+fn no_branches(knob: &mut Knob, active: &ActiveEffects) -> bool {
+    let none = !active.mirror && !active.refraction;
     if none {
         knob.note = Some("the image calls for no mirror and no glass".to_owned());
     }

@@ -14,7 +14,7 @@ const SPLINE_WAVELENGTHS: [u32; 7] = [8, 11, 16, 31, 61, 81, 121];
 const GRID_WAVELENGTHS: [u32; 7] = [8, 11, 21, 42, 84, 168, 336];
 
 /// The knob `accuracy.spectra`, with its resolutions.
-pub(super) fn spectra(start: &Start<'_>, called: &ActiveEffects) -> Knob {
+pub(super) fn spectra(start: &Start<'_>, active: &ActiveEffects) -> Knob {
     let mut knob = Knob::new(
         "accuracy.spectra",
         "shade",
@@ -31,7 +31,7 @@ pub(super) fn spectra(start: &Start<'_>, called: &ActiveEffects) -> Knob {
         ..start.variant(setting, Some(toml))
     };
     let own = start.shot.accuracy;
-    let mut variants = vec![without_shift(start, called)];
+    let mut variants = vec![without_shift(start, active)];
     let seen = |nm: &f64| lines_seen(start.shot, *nm);
     if !LINES_NM.iter().all(seen) {
         knob.note = Some("lines that the sensor's window leaves out are not compared".to_owned());
@@ -74,7 +74,7 @@ pub(super) fn spectra(start: &Start<'_>, called: &ActiveEffects) -> Knob {
 }
 
 /// The image with RGB colors and without shift, which RGB cannot represent.
-pub(in crate::study) fn without_shift(start: &Start<'_>, called: &ActiveEffects) -> Variant {
+pub(in crate::study) fn without_shift(start: &Start<'_>, active: &ActiveEffects) -> Variant {
     let mut shot = Shot {
         accuracy: Accuracy {
             spectra: Spectra::Rgb,
@@ -86,7 +86,7 @@ pub(in crate::study) fn without_shift(start: &Start<'_>, called: &ActiveEffects)
     for splice in &mut shot.splice {
         splice.effects.doppler = Some(Switch::Off);
     }
-    let shifts = called.doppler || splices_shift(start);
+    let shifts = active.doppler || splices_shift(start);
     let setting = if shifts { "rgb, no shift" } else { "rgb" };
     let toml = (!shifts).then(|| "spectra = \"rgb\"".to_owned());
     Variant {

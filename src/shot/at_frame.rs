@@ -39,39 +39,6 @@ impl Shot {
         }
     }
 
-    /// Takes this shot of one frame of `shot` to another one, as far as the sections that `move` go:
-    /// exposure stays.
-    pub fn move_to(&mut self, frame: u32, shot: &Self, moving: Moving) {
-        let when = When {
-            frame,
-            frames: shot.shot.frames,
-        };
-        if moving.time {
-            self.shot.time = shot.shot.time.at_frame(when);
-        }
-        if moving.camera {
-            self.camera = shot.camera.at_frame(when);
-        }
-        if moving.worldlines {
-            self.worldline = shot.worldline.at_frame(when);
-        }
-        if moving.models {
-            self.model = shot.model.at_frame(when);
-        }
-        if moving.materials {
-            self.material = shot.material.at_frame(when);
-        }
-        if moving.spectra {
-            self.spectrum = shot.spectrum.at_frame(when);
-        }
-        if moving.lights {
-            self.light = shot.light.at_frame(when);
-        }
-        if moving.background {
-            self.background = shot.background.at_frame(when);
-        }
-    }
-
     /// The shot as its author might write it: TOML without what is at its default, which reads as
     /// an equal shot.
     pub fn to_toml(&self) -> String {
