@@ -222,8 +222,8 @@ fn calls_that_make_no_sense_are_answered_with_status_2() {
 #[test]
 fn a_broken_shot_among_several_stops_all_of_them_before_the_first_frame() {
     let desk = sphere();
-    desk.write("broken.toml", &SPHERE.replace("samples = 4", "sampels = 4"));
-    desk.write("worse.toml", &SPHERE.replace("0.8, 0, 0", "1.0, 0, 0"));
+    desk.write("broken.toml", SPHERE.replace("samples = 4", "sampels = 4"));
+    desk.write("worse.toml", SPHERE.replace("0.8, 0, 0", "1.0, 0, 0"));
     let outcome = desk.call("render sphere.toml broken.toml worse.toml missing.toml");
     assert_eq!((outcome.status, outcome.stdout.as_str()), (2, ""));
     insta::assert_snapshot!("broken-among-several", said(&desk, &outcome.stderr));
@@ -249,7 +249,7 @@ fn a_mistake_in_a_model_file_is_one_of_the_call_and_names_the_file() {
     let mut answers = String::new();
     for name in files {
         fs::copy(models.join(&name), desk.path(&name)).unwrap();
-        desk.write("bad.toml", &shot_of(&name));
+        desk.write("bad.toml", shot_of(&name));
         for command in ["check", "render"] {
             let outcome = desk.call(&format!("{command} bad.toml"));
             assert_eq!(
@@ -271,7 +271,7 @@ fn a_mistake_in_a_model_file_is_one_of_the_call_and_names_the_file() {
 #[test]
 fn check_tells_what_is_sound_and_what_is_not() {
     let desk = sphere();
-    desk.write("broken.toml", &SPHERE.replace("samples = 4", "sampels = 4"));
+    desk.write("broken.toml", SPHERE.replace("samples = 4", "sampels = 4"));
     let sound = desk.call("check sphere.toml");
     assert_eq!((sound.status, sound.stderr.as_str()), (0, ""));
     assert_eq!(sound.stdout, "sphere.toml: 3 frames, no mistakes\n");
@@ -398,7 +398,7 @@ fn help_and_version_are_results_and_go_to_standard_output() {
 #[test]
 fn without_a_terminal_nothing_has_an_escape_or_a_carriage_return() {
     let desk = sphere();
-    desk.write("broken.toml", &SPHERE.replace("samples = 4", "sampels = 4"));
+    desk.write("broken.toml", SPHERE.replace("samples = 4", "sampels = 4"));
     for line in [
         "$restframe render sphere.toml 2>err | cat",
         "$restframe render sphere.toml --progress bar 2>err | cat",
@@ -491,7 +491,7 @@ fn a_black_first_frame_is_exposed_at_0_stops_with_a_warning() {
     let desk = sphere();
     desk.write(
         "dark.toml",
-        &SPHERE.replace("intensity = 1000", "intensity = 0"),
+        SPHERE.replace("intensity = 1000", "intensity = 0"),
     );
     let outcome = desk.call("render dark.toml --progress none");
     assert_eq!(outcome.status, 0);
@@ -536,7 +536,7 @@ fn glass(more: &str) -> String {
 fn light_that_bounces_cut_is_told_with_the_number_that_would_do() {
     let desk = sphere();
     let events = |more: &str| -> Vec<Value> {
-        desk.write("glass.toml", &glass(more));
+        desk.write("glass.toml", glass(more));
         let told = desk.call("render glass.toml --json");
         assert_eq!(told.status, 0, "{}", told.stderr);
         let lines = told.stdout.lines();
@@ -576,7 +576,7 @@ fn light_that_bounces_cut_is_told_with_the_number_that_would_do() {
     let off = events("[effects]\nbounces = 0\n");
     assert_eq!((cut(&off), warning(&off)), (0.0, None), "it was turned off");
     let probe = "probe glass.toml --pixel 8 24";
-    desk.write("glass.toml", &glass("[effects]\nbounces = 1\n"));
+    desk.write("glass.toml", glass("[effects]\nbounces = 1\n"));
     let told = desk.call(probe).stdout;
     assert!(told.contains("would leave out less than 0.5 %"), "{told}");
     let json: Value = serde_json::from_str(&desk.call(&format!("{probe} --json")).stdout).unwrap();
@@ -593,7 +593,7 @@ fn a_lamp_on_a_wall_gives_numbers_to_whoever_asks() {
     for z in ["1e-160", "1e-320", "0"] {
         desk.write(
             "lamp.toml",
-            &format!(
+            format!(
                 "[image]\nsize = [5, 5]\nsamples = 1\nfilter = \"box\"\n[sensor]\nexposure = 0\n\
                  [[model]]\nfile = \"wall.obj\"\nmaterial = \"paint\"\n\
                  [material.paint]\ndiffuse = {{ spectrum = 0.5 }}\n\

@@ -9,7 +9,7 @@ fn of_two_processes_at_once_each_frame_is_rendered_by_one() {
     // Long enough for both to be at work.
     desk.write(
         "passing.toml",
-        &PASSING.replace("samples = 4", "samples = 60"),
+        PASSING.replace("samples = 4", "samples = 60"),
     );
     desk.done("render passing.toml --out whole");
     let call = "render passing.toml --out both --threads 1 --json";

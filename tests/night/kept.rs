@@ -8,7 +8,7 @@ fn a_night_of_fresh_frames_reads_no_model_and_records_nothing() {
     let desk = passing();
     // The model's warning shows whether it is read.
     let model = fs::read_to_string(desk.path("sphere.obj")).unwrap();
-    desk.write("sphere.obj", &format!("{model}\nl 1 2\n"));
+    desk.write("sphere.obj", format!("{model}\nl 1 2\n"));
     let first = desk.done("render passing.toml --progress none");
     assert!(
         first.stderr.contains("warning: sphere.obj"),
@@ -30,7 +30,7 @@ fn what_has_changed_is_rendered_anew_with_the_reason() {
     desk.done("render passing.toml --frames 1-2");
     desk.write(
         "passing.toml",
-        &PASSING.replace("intensity = 1000", "intensity = 900"),
+        PASSING.replace("intensity = 1000", "intensity = 900"),
     );
     let outcome = desk.done("render passing.toml --frames 1-3");
     let lines: Vec<&str> = outcome.stderr.lines().collect();
@@ -42,7 +42,7 @@ fn what_has_changed_is_rendered_anew_with_the_reason() {
     let outcome = desk.done("render passing.toml --frames 1-3 --json");
     assert_eq!(outcome.frames("rendered"), [1, 2, 3]);
     let file = fs::read_to_string(desk.path("sphere.obj")).unwrap();
-    desk.write("sphere.obj", &file.replacen("v ", "v  ", 1));
+    desk.write("sphere.obj", file.replacen("v ", "v  ", 1));
     let outcome = desk.done("render passing.toml --frames 1 --json");
     assert_eq!(outcome.frames("rendered"), [1]);
 }

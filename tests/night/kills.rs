@@ -21,7 +21,7 @@ fn after_ten_kills_every_frame_is_whole_or_absent_and_the_bytes_are_those_of_one
     let desk = passing();
     let shot = PASSING.replace("frames = 20", &format!("frames = {FRAMES}"));
     let formats = "[output]\nformats = [\"png\", \"exr\"]";
-    desk.write("passing.toml", &format!("{shot}{formats}"));
+    desk.write("passing.toml", format!("{shot}{formats}"));
     let begun = Instant::now();
     desk.done("render passing.toml --out whole");
     let frame = begun.elapsed() / FRAMES;

@@ -123,7 +123,7 @@ fn an_interrupt_that_the_caller_ignores_stays_ignored() {
     let desk = passing();
     desk.write(
         "passing.toml",
-        &PASSING.replace("samples = 4", "samples = 60"),
+        PASSING.replace("samples = 4", "samples = 60"),
     );
     let line = "trap '' INT
         $restframe render passing.toml --json --progress none > events &
