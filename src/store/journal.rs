@@ -1,6 +1,6 @@
 //! Journals: files of JSON lines that are appended and never rewritten.
 //!
-//! A line is complete or absent, whoever else appends and however the run ends: a killed run loses
+//! A line is complete or absent, whatever else appends and however the run ends: a killed run loses
 //! at most the line that it was writing, and the next line does not continue it.
 
 use super::claim::knows_no_locks;
