@@ -115,11 +115,9 @@ fn a_run_to_memory_renders_frames_that_are_finished_on_the_disk() {
 /// Nothing of them meets on a disk.
 #[test]
 fn shots_of_one_name_are_rendered_to_memory_and_refused_for_one_folder() {
-    let shots = ["one-name/a", "one-name/b"].map(|name| {
-        let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
-        fs::create_dir_all(&folder).unwrap();
-        let text = "[image]\nsize = [4, 2]\n[background]\nspectrum = 0.001\n[camera]\nposition = [0, 0, 0]\n[sensor]\nexposure = 0\n";
-        restframe::shot::parse(text, &folder.join("same.toml")).unwrap()
+    let shots = ["one-name", "another-of-it"].map(|name| {
+        let shot = two(name, "0.8", "0.2").join("two.toml");
+        restframe::shot::load(&shot).unwrap()
     });
     let (progress, stop) = (Progress::silent(), Stop::default());
     let taken = Mutex::new(0);
@@ -132,14 +130,14 @@ fn shots_of_one_name_are_rendered_to_memory_and_refused_for_one_folder() {
     assert!(matches!(refused, Some(RunError::Contradiction(_))));
     let mut run = Run::open(&shots, to(Output::Memory(&count))).unwrap();
     run.render_all();
-    assert_eq!(*taken.lock().unwrap(), 2);
+    assert_eq!(*taken.lock().unwrap(), 2 * 3);
 }
 
 #[test]
 fn a_run_is_refused_with_the_mistakes_of_every_shot() {
     let folder = two("mistakes", "0.8", "0.2");
-    fs::remove_file(folder.join("left.obj")).unwrap();
     let shot = restframe::shot::load(&folder.join("two.toml")).unwrap();
+    fs::remove_file(folder.join("left.obj")).unwrap();
     let (progress, stop) = (Progress::silent(), Stop::default());
     let settings = Settings {
         output: Output::Memory(&|_| ()),

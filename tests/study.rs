@@ -151,7 +151,7 @@ fn errors_are_those_of_renders_made_apart_from_the_study() {
 #[test]
 fn every_sweep_has_the_shot_s_own_setting_once_and_says_what_it_is_compared_with() {
     let (_, study) = studied(&shot("own", "[0.3, 0, 0]", "wavelengths = 50"));
-    assert_eq!(study.sweeps.len(), 7);
+    assert_eq!(study.sweeps.len(), 6);
     for sweep in &study.sweeps {
         let own = sweep.points.iter().filter(|point| point.current).count();
         assert_eq!(own, 1, "{}: {:?}", sweep.knob, settings(sweep));

@@ -346,7 +346,7 @@ fn costs_within_the_spread_are_said_to_be_none() {
         row("thermal")
     );
     assert!(row("thermal").contains("not called for: 0 % within the spread"));
-    assert!(row("mirror").contains("and yet beyond the spread"));
+    assert!(row("mirror").contains("but beyond the spread"));
     assert!(row("beaming").contains("yes") && row("beaming").contains("0 % within the spread"));
     assert!(row("doppler").contains("28.7 % ± 1.2 %") && !row("doppler").contains("within"));
 }

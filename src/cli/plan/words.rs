@@ -1,6 +1,6 @@
 //! A plan in words.
 
-use super::Run;
+use super::frame_range::Run;
 use crate::queue::{FrameForecast, Totals};
 use crate::store::{ShotFolder, Status};
 use indexmap::IndexMap;
