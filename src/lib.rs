@@ -1,34 +1,44 @@
 //! restframe: a batch renderer for scenes in which things move at nearly the speed of light.
 //!
-//! # The house
+//! # The rooms
 //! ```text
-//!             relativity      spectrum                       leaves: import nothing of ours
-//!                  \             /
-//!  shot ──> frame ─> scene ──> trace ──> shade ──> film      steps: values, one direction
-//!             │                                     │
-//!             └────────── render, probe ────────────┘
-//!                               │
-//!                        queue ──> sequence, study           callers
-//!                               │
-//!                           cli, main
+//!  relativity   color ─> spectrum                                  leaves
+//!      │                    │
+//!  shot ─> model ─> frame ─> scene ─> accel ─> trace ─> shade ─> film     steps: values, one direction
+//!                     │                                           │
+//!                     └───────────── render, probe ───────────────┘
+//!                                          │
+//!                  image, plot             │                        images: plain values to files
+//!                            ╲             │
+//!                  store, progress ─> queue                         batch
+//!                                          │
+//!                             sequence, study, cli, main            callers
 //! ```
-//! A step is a function from plain input to plain output, and imports point only up this list
-//! (`tests/layout.rs` checks them). One sentence a room, with what always holds there:
+//! A step is a function from plain input to plain output. Imports point only backwards along the
+//! arrows, and no two files of a room import each other in a circle (`tests/layout.rs`). One sentence
+//! for each room, with what always holds there:
 //!
 //! - [`relativity`]: events, boosts, light. No formula that cancels near the light cone.
+//! - [`color`]: the CIE's tables, color spaces, color differences. Numbers alone.
 //! - [`spectrum`]: curves over wavelength. Finite and non-negative at every wavelength above 0.
-//! - [`shot`]: the TOML as its author wrote it. A [`shot::Shot`] that exists has no mistake that
-//!   its own text could show.
-//! - [`frame`]: the effects that an image calls for. No mesh, no pixel.
-//! - [`scene`]: one image's bodies, lamps and camera. Nothing is optional, relative or a name.
-//! - [`accel`]: batches of rays to hits and occlusion: trees, instances, triangles.
-//! - [`trace`]: nearest hits over all worldlines, and shade trees. No spectrum.
+//! - [`shot`]: the TOML as its author wrote it. A [`shot::Shot`] has no mistake that its own text
+//!   could show.
+//! - [`model`]: OBJ and glTF files to plain values. Every index is checked, every number finite.
+//! - [`frame`]: the shot at one frame. Every track is a number, every name resolved; which effects it
+//!   needs and why; what decides whether it is rendered again. No mesh, no pixel.
+//! - [`scene`]: bodies, materials as lobes, lamps, camera, sky. Nothing is optional, relative or a name.
+//! - [`accel`]: batches of rays to hits. Boxes, triangles and null lines; no material, no lamp.
+//! - [`trace`]: camera rays to shade trees: geometry, visibility, Doppler factors. No spectrum.
 //! - [`shade`]: shade trees to light. The only place where a Doppler factor meets a spectrum is
 //!   [`shade::received`].
-//! - [`film`]: sums of XYZ, or of bands, to pictures. Every number in a file is finite.
+//! - [`film`]: sums of XYZ, or of bands; metering, exposure, development.
 //! - [`render`] and [`probe`]: all of it on one page, for an image and for a pixel.
-//! - [`queue`]: the images of a night, each whole or absent.
-//! - [`sequence`]: finished images verified, and assembled to sheets, animations, videos and a page.
+//! - [`image`] and [`plot`]: file formats written, read back and compared; drawings. Every number in a
+//!   file is finite, and equal input gives equal bytes.
+//! - [`store`]: files on the disk, their records and claims. A file is complete or absent.
+//! - [`progress`]: events of a run, and their receivers.
+//! - [`queue`]: a run: which frames, in which batches, on how many machines. Images do not depend on it.
+//! - [`sequence`]: finished frames verified, and assembled to sheets, animations, videos and a page.
 //! - [`study`]: accuracy against time, by rendering the same image at many settings.
 //! - [`cli`]: arguments, messages, exit codes.
 //!

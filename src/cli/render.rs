@@ -96,10 +96,9 @@ fn load(arguments: &RenderArguments) -> (Vec<Shot>, Option<Failed>) {
 fn refused(error: RunError) -> Failed {
     match error {
         RunError::Contradiction(error) => misused(&error.to_string()),
-        RunError::Mistakes(all) => {
-            all.iter().for_each(|mistakes| drop(mistaken(mistakes)));
-            Failed(MISTAKE)
-        }
+        RunError::Mistakes(all) => all
+            .iter()
+            .fold(Failed(MISTAKE), |_, mistakes| mistaken(mistakes)),
     }
 }
 
