@@ -25,7 +25,7 @@
 //!   could show.
 //! - [`model`]: OBJ and glTF files to plain values. Every index is checked, every number finite.
 //! - [`frame`]: the shot at one frame. Every track is a number, every name resolved; which effects it
-//!   needs and why; what decides whether it is rendered again. No mesh, no pixel.
+//!   needs and why; the fingerprint and the trace key that `store` and `queue` judge by. No mesh.
 //! - [`scene`]: bodies, materials as lobes, lamps, camera, sky. Nothing is optional, relative or a name.
 //! - [`accel`]: batches of rays to hits. Boxes, triangles and null lines; no material, no lamp.
 //! - [`trace`]: camera rays to shade trees: geometry, visibility, Doppler factors. No spectrum.
@@ -35,8 +35,9 @@
 //! - [`render`] and [`probe`]: all of it on one page, for an image and for a pixel.
 //! - [`image`] and [`plot`]: file formats written, read back and compared; drawings. Every number in a
 //!   file is finite, and equal input gives equal bytes.
-//! - [`store`]: files on the disk, their records and claims. A file is complete or absent.
-//! - [`progress`]: events of a run, and their receivers.
+//! - [`store`]: files on the disk, their records and claims; whether a frame must be rendered. A file is
+//!   complete or absent.
+//! - [`progress`]: events of a run, and their sinks.
 //! - [`queue`]: a run: which frames, in which batches, on how many machines. Images do not depend on it.
 //! - [`sequence`]: finished frames verified, and assembled to sheets, animations, videos and a page.
 //! - [`study`]: accuracy against time, by rendering the same image at many settings.

@@ -5,7 +5,7 @@
 //! values, so that the checks that follow see the rest.
 
 mod key_path;
-mod keys;
+mod keyframes;
 mod node;
 mod schema_walk;
 mod value;

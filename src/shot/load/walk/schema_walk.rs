@@ -6,7 +6,7 @@
 
 use super::super::{schema, unsupported};
 use super::key_path::{At, join};
-use super::keys::{last_frame, mistaken_keys};
+use super::keyframes::{last_frame, mistaken_keys};
 use super::node::{Node, list_of};
 use super::value::{as_number, as_text, is_array_of_tables, kind_of, shown};
 use crate::shot::names::{did_you_mean, nearest, short};
