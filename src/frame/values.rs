@@ -79,7 +79,7 @@ pub struct Frame<'a> {
     pub(super) faults: Faults,
 }
 
-/// Values that are none.
+/// Values that are refused.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Faults {
     /// Worldlines that have no velocity, by place, and why.
@@ -287,35 +287,59 @@ impl<'a> Frames<'a> {
         self.moving
     }
 
-    fn move_to(&mut self, number: u32) {
-        let (frame, moving) = (&mut self.frame, self.moving);
-        let shot = frame.shot;
-        let at = At { shot, number };
-        frame.number = number;
-        frame.exposure_stops = exposure_stops(at);
+    /// By all fields of a frame: one that is new does not compile until it is said whether it moves.
+    fn move_to(&mut self, to: u32) {
+        let moving = self.moving;
+        let Frame {
+            number,
+            title: _,
+            fps: _,
+            time_s,
+            lab_time,
+            worldlines,
+            camera,
+            models,
+            body_order,
+            materials,
+            lights,
+            background,
+            effects: _,
+            splices: _,
+            image: _,
+            sensor: _,
+            exposure_stops,
+            accuracy: _,
+            output: _,
+            insets: _,
+            shot,
+            faults,
+        } = &mut self.frame;
+        let at = At { shot, number: to };
+        *number = to;
+        *exposure_stops = self::exposure_stops(at);
         if moving.time {
-            frame.time_s = at.value(&shot.shot.time);
-            frame.lab_time = frame.time_s * shot.shot.light_speed;
+            *time_s = at.value(&shot.shot.time);
+            *lab_time = *time_s * shot.shot.light_speed;
         }
         if moving.camera {
-            frame.camera = Camera::new(at);
+            *camera = Camera::new(at);
         }
         if moving.worldlines {
-            (frame.worldlines, frame.faults.no_velocity) = Worldline::all(at);
+            (*worldlines, faults.no_velocity) = Worldline::all(at);
         }
         if moving.models {
-            frame.models = models(at);
-            frame.faults.no_size = no_size(&frame.models);
-            frame.body_order = body_order(&frame.models, &frame.worldlines);
+            *models = self::models(at);
+            faults.no_size = no_size(models);
+            *body_order = self::body_order(models, worldlines);
         }
         if moving.materials {
-            frame.materials = materials(at);
+            *materials = self::materials(at);
         }
         if moving.lights {
-            frame.lights = lights(at);
+            *lights = self::lights(at);
         }
         if moving.background {
-            frame.background = Background::new(at);
+            *background = Background::new(at);
         }
     }
 }

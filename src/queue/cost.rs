@@ -6,7 +6,7 @@
 //! else by a guess.
 
 use super::memory::image_bytes;
-use crate::frame::{Frame, Resolution};
+use crate::frame::Resolution;
 use crate::shot::{Format, Shot};
 use crate::store::{Names, Record, ShotFolder, read_records};
 use std::collections::HashMap;
@@ -149,11 +149,6 @@ impl Costs {
     pub fn seconds(&self, effects: &[String], picture: Resolution) -> f64 {
         self.estimate(effects, picture).seconds()
     }
-}
-
-/// Names of the effects that are simulated in a frame; none in one that is refused.
-pub(super) fn active_names(shot: &Shot, frame: u32) -> Vec<String> {
-    Frame::new(shot, frame).map_or_else(|_| Vec::new(), |frame| frame.active_names())
 }
 
 fn rays([width, height]: [u32; 2], samples: u32) -> f64 {

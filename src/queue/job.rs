@@ -1,12 +1,12 @@
 //! A shot of the run: which of its frames exist, and the outcome of each.
 
 use super::batch::FrameTask;
-use super::cost::{Costs, active_names};
+use super::cost::Costs;
 use super::memory::check_memory;
 use super::settings::{Force, Output, Settings};
 use super::shard::Shard;
 use crate::accel::Aggregate;
-use crate::frame::{FrameFingerprint, TraceKey};
+use crate::frame::{Frame, FrameFingerprint, Frames, TraceKey};
 use crate::progress::{FrameOutcome, Progress};
 use crate::render::{Exposing, Options, Prepared};
 use crate::scene::Scene;
@@ -177,7 +177,7 @@ impl Job {
             true => Costs::new(&self.folder),
             false => Costs::default(),
         };
-        let costs: Vec<f64> = self.costs(&wanted, costs).collect();
+        let costs = self.costs(&wanted, &costs);
         for (task, work) in wanted.iter_mut().zip(costs) {
             (task.job, task.work) = (job, work);
         }
@@ -198,16 +198,20 @@ impl Job {
     }
 
     /// Seconds that each task is expected to take, of a shared trace its part.
-    fn costs(&self, tasks: &[FrameTask], costs: Costs) -> impl Iterator<Item = f64> {
+    fn costs(&self, tasks: &[FrameTask], costs: &Costs) -> Vec<f64> {
         let mut sharing: HashMap<TraceKey, f64> = HashMap::new();
         for task in tasks {
             *sharing.entry(task.trace).or_default() += 1.0;
         }
-        tasks.iter().map(move |task| {
-            let effects = active_names(self.folder.shot(), task.frame);
+        let mut frames = Frames::new(self.folder.shot());
+        let seconds = |task: &FrameTask| {
+            // A frame that is refused has no effects.
+            let effects = frames.at(task.frame).map(Frame::active_names);
+            let effects = effects.unwrap_or_default();
             let estimate = costs.estimate(&effects, self.folder.keys.resolution());
             estimate.trace / sharing[&task.trace] + estimate.shade
-        })
+        };
+        tasks.iter().map(seconds).collect()
     }
 
     /// Settles a frame that existed already.

@@ -118,8 +118,6 @@ pub enum Spectra {
 pub enum Precision {
     /// 64 bits: 16 digits.
     F64,
-    /// 32 bits: 7 digits. Not supported yet.
-    F32,
 }
 
 #[cfg(test)]
