@@ -92,7 +92,30 @@ pub struct ProbeEvent {
     pub x: [f64; 3],
 }
 
-/// Probes the centre of `pixel`, which must lie in the frame's image. `exposure` is in stops.
+/// Probes the center of `pixel`, which must lie in the frame's image. `exposure` is in stops.
+///
+/// # Example
+/// ```
+/// use restframe::{frame::Frame, probe, render::View, scene::{Library, Scene}, shot};
+/// use restframe::trace::build_aggregate;
+/// use std::path::Path;
+///
+/// let text = r#"
+/// worldline.coming.velocity = [0, 0, 0.6]
+/// model = [{ file = "assets/sphere.obj", worldline = "coming" }]
+/// camera.position = [0, 0, 5]
+/// "#;
+/// let shot = shot::parse(text, Path::new("coming.toml"))?;
+/// let frame = Frame::new(&shot, 1)?;
+/// let scene = Scene::resolve(&frame, &Library::load(&shot)?, None)?;
+/// let bodies = build_aggregate(&scene.geometry, None);
+/// let view = View::new(&frame, &frame.effects, &scene, &bodies);
+/// let [width, height] = shot.image.size;
+/// let seen = probe::probe(&frame, [width / 2, height / 2], &view, &scene, 0.0);
+/// let doppler = seen.hit.map(|hit| hit.doppler);
+/// assert!(doppler.is_some_and(|d| (d - 2.0).abs() < 1e-4)); // √((1 + β)/(1 − β))
+/// # Ok::<(), shot::Mistakes>(())
+/// ```
 pub fn probe(
     frame: &Frame<'_>,
     pixel: [u32; 2],

@@ -50,7 +50,33 @@ pub fn render_together(
     render_all(members, aggregate, options, watch, None)
 }
 
-/// Renders one image. `done` is told of finished rays, from any thread.
+/// Renders one image. `done` is called with numbers of finished rays, from any thread.
+///
+/// # Example
+/// From a shot to the bytes of a PNG:
+/// ```
+/// use restframe::color::spaces;
+/// use restframe::film::{develop, to_rgb8};
+/// use restframe::frame::Frame;
+/// use restframe::image::{Metadata, png};
+/// use restframe::render::{Options, development, render};
+/// use restframe::scene::{Library, Scene};
+/// use restframe::trace::build_aggregate;
+/// use std::path::Path;
+///
+/// let shot = restframe::shot::load(Path::new("shots/plate-08.toml"))?;
+/// let frame = Frame::new(&shot, 1)?;
+/// let scene = Scene::resolve(&frame, &Library::load(&shot)?, None)?;
+/// let bodies = build_aggregate(&scene.geometry, None);
+/// let options = Options { width: 16, height: 9, samples: 1, layers: Vec::new() };
+/// let film = render(&frame, &scene, &bodies, &options, &|_| ());
+///
+/// let developed = develop(&film, &development(shot.sensor.color, 0.0));
+/// let rgb8 = to_rgb8(&developed, spaces::encode);
+/// let bytes = png::encode(16, 9, &rgb8, &Metadata::default())?;
+/// assert_eq!(&bytes[1..4], b"PNG");
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn render(
     frame: &Frame<'_>,
     scene: &Scene,

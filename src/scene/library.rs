@@ -52,6 +52,17 @@ impl Library {
     ///
     /// # Errors
     /// Every file that cannot be used, each at the key that names it.
+    ///
+    /// # Example
+    /// ```
+    /// use restframe::{scene::Library, shot};
+    /// use std::path::Path;
+    ///
+    /// let shot = shot::load(Path::new("shots/mirror-ball.toml"))?;
+    /// let library = Library::load(&shot)?;
+    /// assert_eq!(library.warnings(&shot).count(), 0);
+    /// # Ok::<(), shot::Mistakes>(())
+    /// ```
     pub fn load(shot: &Shot) -> Result<Self, Mistakes> {
         let mut mistakes = Vec::new();
         let models = load_models(shot, &mut mistakes);

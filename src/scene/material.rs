@@ -121,14 +121,23 @@ impl Material {
         over: &frame::Material<'_>,
         spectra: &Spectra<'_>,
     ) -> Result<Self, MaterialError> {
-        if let Some(term) = over.diffuse {
+        // By all terms: one that is new does not compile until it is laid over too.
+        let frame::Material {
+            diffuse,
+            highlight,
+            mirror,
+            refraction,
+            emission,
+            thermal,
+        } = over;
+        if let Some(term) = *diffuse {
             let key = LobeKind::Diffuse.key();
             self = self.with(key, term, |_| LobeKind::Diffuse, spectra)?;
         }
-        if let Some(term) = over.emission {
+        if let Some(term) = *emission {
             self.emission = Some(laid("emission", term, self.emission, spectra)?);
         }
-        if let Some(frame::Highlight { term, exponent }) = over.highlight {
+        if let Some(frame::Highlight { term, exponent }) = *highlight {
             let kind = |below| match (exponent, below) {
                 (Some(exponent), _) => LobeKind::Highlight { exponent },
                 (None, Some(kept)) => kept,
@@ -136,11 +145,11 @@ impl Material {
             };
             self = self.with("highlight", term, kind, spectra)?;
         }
-        if let Some(term) = over.mirror {
+        if let Some(term) = *mirror {
             let key = LobeKind::Mirror.key();
             self = self.with(key, term, |_| LobeKind::Mirror, spectra)?;
         }
-        if let Some(frame::Refraction { term, ior }) = over.refraction {
+        if let Some(frame::Refraction { term, ior }) = *refraction {
             let kind = |below| match (ior, below) {
                 (Some(ior), _) => LobeKind::Refraction { ior },
                 (None, Some(kept)) => kept,
@@ -148,8 +157,8 @@ impl Material {
             };
             self = self.with("refraction", term, kind, spectra)?;
         }
-        if let Some(term) = &over.thermal {
-            self.thermal = thermal(term, spectra)?;
+        if let Some(term) = thermal {
+            self.thermal = self::thermal(term, spectra)?;
         }
         Ok(self)
     }

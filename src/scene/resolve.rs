@@ -42,10 +42,24 @@ pub struct Scene {
 }
 
 impl Scene {
-    /// Resolves a frame, taking bodies over from `earlier` where they stand as they stood.
+    /// Resolves a frame. Bodies are taken over from `earlier` if they have not moved in their rest
+    /// frames.
     ///
     /// # Errors
-    /// What only shows when the shot's files are known.
+    /// Mistakes that are known only with the shot's files.
+    ///
+    /// # Example
+    /// ```
+    /// use restframe::{frame::Frame, scene::{Library, Scene}, shot};
+    /// use std::path::Path;
+    ///
+    /// let shot = shot::load(Path::new("shots/plate-08.toml"))?;
+    /// let library = Library::load(&shot)?;
+    /// let scene = Scene::resolve(&Frame::new(&shot, 1)?, &library, None)?;
+    /// let fastest = scene.worldlines.iter().map(|w| w.celerity.beta().length());
+    /// assert!((fastest.fold(0.0, f64::max) - 0.5).abs() < 1e-15);
+    /// # Ok::<(), shot::Mistakes>(())
+    /// ```
     pub fn resolve(
         frame: &Frame<'_>,
         library: &Library,

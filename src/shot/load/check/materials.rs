@@ -90,7 +90,7 @@ fn shares(material: &Material) -> Vec<Share<'_>> {
         mirror,
         refraction,
         thermal,
-        ..
+        emission: _, // no share: it may exceed 1
     } = material;
     let terms = [
         diffuse
