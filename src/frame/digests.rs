@@ -12,8 +12,8 @@ use std::fs::File;
 use std::io::{self, BufRead, BufReader, Read};
 use std::path::{Path, PathBuf};
 
-/// BLAKE3 of every file that a shot reads, each read once and none kept. What a broken file lacks
-/// to be read is said by whoever reads it.
+/// BLAKE3 of every file that a shot reads, each read once and none kept. What is wrong with a
+/// broken file is reported where it is read.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Digests(IndexMap<PathBuf, Digest>);
 

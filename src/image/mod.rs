@@ -1,7 +1,7 @@
 //! Image files: PNG and OpenEXR written, read back and compared.
 //!
 //! In: developed pixels and [`Metadata`]. Out: files as bytes in memory ([`png::encode`],
-//! [`exr::encode`]); the pixels and metadata of files, whoever wrote them ([`decode`],
+//! [`exr::encode`]); the pixels and metadata of files, also those of other programs ([`decode`],
 //! [`fingerprint`]); differences of two images ([`compare`]). Pixels are row-major, top row first.
 //! Equal input gives equal bytes for any number of threads, so no file holds a date, a host or a
 //! duration.

@@ -253,7 +253,7 @@ mod tests {
         assert_eq!(names(folder.path()), ["plate.png"]);
     }
 
-    /// Whoever sweeps while a folder is tried does not make it seem unwritable.
+    /// A folder that another process sweeps meanwhile does not seem unwritable.
     #[test]
     fn what_another_process_has_swept_is_removed_as_well() {
         let folder = tempfile::tempdir().expect("scratch folder");

@@ -103,7 +103,7 @@ pub enum Seen {
 pub struct Surface {
     /// Index into the scene's materials.
     pub material: u32,
-    /// Length of the light path in the rest frame of whoever sees it, metres.
+    /// Length of the light path in the rest frame of the camera or surface that sees it, meters.
     pub s: f64,
     /// When the light left, in the surface's rest frame, metres of light travel.
     pub time: f64,

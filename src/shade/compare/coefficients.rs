@@ -210,8 +210,8 @@ impl<B: CoefficientBasis> CoefficientShader<B> {
     }
 }
 
-/// Sources in the rest frame of what sends their light: the shift to the camera is left to whoever
-/// has the sum.
+/// Sources in the rest frame of what sends their light: the shift to the camera is applied to
+/// their sum.
 struct RestFrame<'a, B: CoefficientBasis> {
     shader: &'a CoefficientShader<B>,
     part: Part,
