@@ -1,6 +1,6 @@
 //! Files that are either complete or absent, however the run ends.
 //!
-//! A temporary file in the same folder, `NAME.XXXXXX.tmp`, is written, flushed to the disk and
+//! A temporary file in the same folder, `NAME.restframe-XXXXXX.tmp`, is written, flushed and
 //! renamed to its target; then the folder is flushed. If dropped before that, it is removed. A
 //! killed run can leave the temporary file but never an incomplete target; [`sweep`](super::sweep)
 //! removes such files.
