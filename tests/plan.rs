@@ -2,7 +2,7 @@
 
 use crate::common::WALL;
 use crate::common::desk::{Desk, Outcome};
-use restframe::frame::FrameFingerprint;
+use restframe::frame::{Frame, FrameFingerprint};
 use restframe::image;
 use restframe::image::Metadata;
 use restframe::queue::Costs;
@@ -105,6 +105,24 @@ fn record(frame: u32, key: &FrameFingerprint, name: &str, seconds: f64) -> Value
         "warnings": [], "memory_mib": null, "threads": 1, "host": "here", "version": "0.1.0",
         "finished": "2026-01-01T00:00:00Z",
     })
+}
+
+/// A lamp that fades in on a moving car: nothing of relativity before it shines.
+#[test]
+fn a_dark_lamp_calls_for_no_effect() {
+    let text = r#"
+        shot.frames = 2
+        worldline.car.velocity = [0.5, 0, 0]
+        light = [{ kind = "point", worldline = "car", intensity = { from = 0, to = 10 } }]
+    "#;
+    let shot = shot::parse(text, "fade.toml".as_ref()).unwrap();
+    let effects = |number| {
+        let frame = Frame::new(&shot, number).unwrap();
+        frame.active_effects(&frame.effects)
+    };
+    let [dark, lit] = [1, 2].map(effects);
+    assert!(!dark.geometry && !dark.doppler && !dark.shadows, "{dark:?}");
+    assert!(lit.geometry && lit.doppler && lit.shadows, "{lit:?}");
 }
 
 #[test]

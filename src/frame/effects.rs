@@ -1,5 +1,6 @@
 //! The effects that a frame calls for, and one sentence each why.
 
+use super::light::{Light, Shines};
 use super::model::Model;
 use super::values::Frame;
 use crate::relativity::Celerity;
@@ -162,7 +163,7 @@ impl Frame<'_> {
     pub(super) fn riders(&self) -> impl Iterator<Item = (Rider<'_>, usize)> {
         let models = self.models.iter();
         let models = models.map(|model| (Rider::Model(&model.name), model.worldline));
-        let lights = self.lights.iter();
+        let lights = self.lit_lamps();
         let lights = lights.map(|light| (Rider::Light(&light.name), light.worldline));
         let sky =
             (!self.background.is_black()).then_some((Rider::Background, self.background.worldline));
@@ -200,9 +201,15 @@ impl Frame<'_> {
         })
     }
 
+    /// Lamps of the shot that are not dark at this frame.
+    fn lit_lamps(&self) -> impl Iterator<Item = &Light<'_>> {
+        let lights = self.lights.iter();
+        lights.filter(|light| light.shines() != Shines::Never)
+    }
+
     /// Lamps of the shot, or of model files that may hold some.
     fn lamps(&self) -> Option<String> {
-        match self.lights.len() {
+        match self.lit_lamps().count() {
             0 => {
                 let some = self.models.iter().any(Model::may_hold_lamps);
                 some.then(|| "a model file may hold lamps".to_owned())
