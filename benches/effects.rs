@@ -41,7 +41,7 @@ fn frame(bencher: Bencher<'_, '_>, scene: Scene) {
         effects,
         ..
     } = scene;
-    let (prepared, resolved, stage) = read(&format!(
+    let (prepared, resolved, aggregate) = read(&format!(
         r#"
 [image]
 size = [320, 180]
@@ -93,7 +93,7 @@ exposure = 0
             render(
                 &Frame::new(&prepared.shot, 1).expect("it moves"),
                 &resolved,
-                &stage,
+                &aggregate,
                 &options,
                 &|_| (),
             )
@@ -132,7 +132,7 @@ fn mirror(bencher: Bencher<'_, '_>) {
 }
 
 #[divan::bench(sample_count = 25)]
-fn mirror_of_a_colour(bencher: Bencher<'_, '_>) {
+fn mirror_of_a_color(bencher: Bencher<'_, '_>) {
     let special =
         "mirror = { weight = 0.8, spectrum = { gaussian = { center = 600, width = 50 } } }";
     frame(

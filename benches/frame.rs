@@ -13,7 +13,7 @@ fn main() {
 }
 
 fn frame(bencher: Bencher<'_, '_>, beta: f64, lamp: &str, effects: &str, accuracy: &str) {
-    let (prepared, scene, stage) = shell(beta, lamp, effects, accuracy);
+    let (prepared, scene, aggregate) = shell(beta, lamp, effects, accuracy);
     let options = Options {
         width: 320,
         height: 180,
@@ -29,7 +29,7 @@ fn frame(bencher: Bencher<'_, '_>, beta: f64, lamp: &str, effects: &str, accurac
             render(
                 &Frame::new(&prepared.shot, 1).expect("it moves"),
                 &scene,
-                &stage,
+                &aggregate,
                 &options,
                 &|_| (),
             )

@@ -49,7 +49,7 @@ impl Picture {
     /// Times one thread at it.
     fn time(&self, bencher: Bencher<'_, '_>) {
         let Self { width, height, .. } = *self;
-        let (prepared, scene, stage) = self.read();
+        let (prepared, scene, aggregate) = self.read();
         let options = self.options();
         let rays = width * height * self.samples;
         let one_thread = rayon::ThreadPoolBuilder::new()
@@ -61,7 +61,7 @@ impl Picture {
                 render(
                     &Frame::new(&prepared.shot, 1).expect("it moves"),
                     &scene,
-                    &stage,
+                    &aggregate,
                     &options,
                     &|_| (),
                 )
@@ -190,11 +190,11 @@ fn film() -> (Film, Development) {
         height: 360,
         samples: 1,
     };
-    let (prepared, scene, stage) = picture.read();
+    let (prepared, scene, aggregate) = picture.read();
     let film = render(
         &Frame::new(&prepared.shot, 1).expect("it moves"),
         &scene,
-        &stage,
+        &aggregate,
         &picture.options(),
         &|_| (),
     );

@@ -51,25 +51,25 @@ fn rows(scene: &Scene) -> (Geometry, usize) {
     (geometry, one.worldline as usize)
 }
 
-fn nearest(bencher: Bencher<'_, '_>, stage: &Aggregate, worldline: usize) {
+fn nearest(bencher: Bencher<'_, '_>, aggregate: &Aggregate, worldline: usize) {
     let rays = rays(DVec3::ZERO);
     bencher
         .counter(ItemsCount::new(rays.len()))
         .bench_local(|| {
             rays.iter()
-                .filter_map(|ray| stage.intersect_ray(worldline, ray, f64::INFINITY))
+                .filter_map(|ray| aggregate.intersect_ray(worldline, ray, f64::INFINITY))
                 .map(|hit| hit.t)
                 .sum::<f64>()
         });
 }
 
 /// Shadow rays from what primary rays hit to a lamp at the origin of the shell.
-fn blocked(bencher: Bencher<'_, '_>, stage: &Aggregate, worldline: usize) {
+fn blocked(bencher: Bencher<'_, '_>, aggregate: &Aggregate, worldline: usize) {
     let lamp = DVec3::new(0.0, 3.0, 1.0);
     let towards_lamp: Vec<(Ray, f64)> = rays(DVec3::ZERO)
         .iter()
         .filter_map(|ray| {
-            let hit = stage.intersect_ray(worldline, ray, f64::INFINITY)?;
+            let hit = aggregate.intersect_ray(worldline, ray, f64::INFINITY)?;
             let from = ray.direction * hit.t * (1.0 - 1e-9);
             let path = lamp - from;
             Some((
@@ -86,17 +86,17 @@ fn blocked(bencher: Bencher<'_, '_>, stage: &Aggregate, worldline: usize) {
         .bench_local(|| {
             towards_lamp
                 .iter()
-                .filter(|(ray, reach)| stage.occludes_ray(worldline, ray, *reach))
+                .filter(|(ray, reach)| aggregate.occludes_ray(worldline, ray, *reach))
                 .count()
         });
 }
 
 #[divan::bench]
 fn primary_shell(bencher: Bencher<'_, '_>) {
-    let (_, scene, stage) = shell(0.0, "shell", "", "");
+    let (_, scene, aggregate) = shell(0.0, "shell", "", "");
     nearest(
         bencher,
-        &stage,
+        &aggregate,
         scene.geometry.instances[0].worldline as usize,
     );
 }
@@ -110,10 +110,10 @@ fn primary_rows(bencher: Bencher<'_, '_>) {
 
 #[divan::bench]
 fn shadow_shell(bencher: Bencher<'_, '_>) {
-    let (_, scene, stage) = shell(0.0, "shell", "", "");
+    let (_, scene, aggregate) = shell(0.0, "shell", "", "");
     blocked(
         bencher,
-        &stage,
+        &aggregate,
         scene.geometry.instances[0].worldline as usize,
     );
 }
@@ -126,7 +126,7 @@ fn shadow_rows(bencher: Bencher<'_, '_>) {
 }
 
 #[divan::bench]
-fn build_stage_of_rows(bencher: Bencher<'_, '_>) {
+fn build_aggregate_of_rows(bencher: Bencher<'_, '_>) {
     let (_, scene, _) = shell(0.0, "shell", "", "");
     let geometry = Arc::new(rows(&scene).0);
     bencher.bench_local(|| build_aggregate(&geometry, None));

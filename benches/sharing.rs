@@ -32,7 +32,7 @@ fn main() {
 struct Images {
     prepared: Prepared,
     scene: Scene,
-    stage: Aggregate,
+    aggregate: Aggregate,
     options: Options,
     pool: rayon::ThreadPool,
 }
@@ -50,12 +50,12 @@ impl Images {
     }
 
     fn new(lamp: &str, effects: &str, accuracy: &str, [width, height]: [u32; 2]) -> Self {
-        let (prepared, scene, stage) = shell(0.5, lamp, effects, accuracy);
+        let (prepared, scene, aggregate) = shell(0.5, lamp, effects, accuracy);
         let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build();
         Self {
             prepared,
             scene,
-            stage,
+            aggregate,
             options: Options {
                 width,
                 height,
@@ -71,16 +71,16 @@ impl Images {
         let scene = &self.scene;
         let member = Member { frame, scene };
         let members = vec![member; count];
-        films(&self.pool, &members, &self.stage, &self.options)
+        films(&self.pool, &members, &self.aggregate, &self.options)
     }
 
     fn alone(&self, count: usize) -> Vec<Film> {
-        let (shot, scene, stage) = (&self.prepared.shot, &self.scene, &self.stage);
+        let (shot, scene, aggregate) = (&self.prepared.shot, &self.scene, &self.aggregate);
         let one = |_| {
             render(
                 &Frame::new(shot, 1).expect("it moves"),
                 scene,
-                stage,
+                aggregate,
                 &self.options,
                 &|_| (),
             )
@@ -92,7 +92,7 @@ impl Images {
 fn films(
     pool: &rayon::ThreadPool,
     members: &[Member<'_>],
-    stage: &Aggregate,
+    aggregate: &Aggregate,
     options: &Options,
 ) -> Vec<Film> {
     let stop = &AtomicBool::new(false);
@@ -100,7 +100,7 @@ fn films(
         done: &|_| (),
         stop,
     };
-    let rendered = pool.install(|| render_together(members, stage, options, watch));
+    let rendered = pool.install(|| render_together(members, aggregate, options, watch));
     rendered.expect("nothing keeps it from rendering").films
 }
 
@@ -148,7 +148,7 @@ fn ramp(frames: u32) -> Prepared {
 }
 
 fn time_ramp(frames: u32) {
-    /// As many films at once as a night's work holds.
+    /// As many films at once as a batch holds.
     const HELD: u64 = 512 << 20;
     let Prepared { shot, library } = ramp(frames);
     let options = Options {
@@ -164,7 +164,7 @@ fn time_ramp(frames: u32) {
         Scene::resolve(frame, &library, earlier).expect("it resolves")
     };
     let first = resolve(&frame(1), None);
-    let stage = build_aggregate(&first.geometry, None);
+    let aggregate = build_aggregate(&first.geometry, None);
     let encode = |frame: &Frame<'_>, scene: &Scene, film: &Film| {
         let taken = PictureInfo {
             exposure_stops: -9.3,
@@ -184,7 +184,7 @@ fn time_ramp(frames: u32) {
         let scenes: Vec<Scene> = frames.iter().map(|f| resolve(f, Some(&first))).collect();
         let member = |(frame, scene)| Member { frame, scene };
         let members: Vec<_> = frames.iter().zip(&scenes).map(member).collect();
-        let films = films(&pool, &members, &stage, &options);
+        let films = films(&pool, &members, &aggregate, &options);
         let sizes: Vec<usize> = pool.install(|| {
             let all = members.par_iter().zip(&films);
             all.map(|(m, film)| encode(m.frame, m.scene, film))
@@ -199,7 +199,7 @@ fn time_ramp(frames: u32) {
     for number in 1..=frames {
         let frame = frame(number);
         let scene = resolve(&frame, Some(&first));
-        let film = pool.install(|| render(&frame, &scene, &stage, &options, &|_| ()));
+        let film = pool.install(|| render(&frame, &scene, &aggregate, &options, &|_| ()));
         alone.push(pool.install(|| encode(&frame, &scene, &film)));
     }
     let apart = begun.elapsed().as_secs_f64();

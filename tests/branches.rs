@@ -31,9 +31,9 @@ fn sees(text: &str, pixel: [u32; 2]) -> Probe {
     let shot = &prepared.shot;
     let frame = Frame::new(shot, 1).unwrap();
     let scene = Scene::resolve(&frame, &prepared.library, None).unwrap();
-    let stage = build_aggregate(&scene.geometry, None);
+    let aggregate = build_aggregate(&scene.geometry, None);
     let effects = frame.effects_at(pixel[1]);
-    let view = View::new(&frame, &effects, &scene, &stage);
+    let view = View::new(&frame, &effects, &scene, &aggregate);
     probe(&frame, pixel, &view, &scene, 0.0)
 }
 
@@ -127,18 +127,18 @@ fn film_of<T>(bounces: u32, look: impl FnOnce(Member<'_>, &Aggregate, &Film) -> 
     let shot = &prepared.shot;
     let values = Frame::new(shot, 1).unwrap();
     let scene = Scene::resolve(&values, &prepared.library, None).unwrap();
-    let stage = build_aggregate(&scene.geometry, None);
+    let aggregate = build_aggregate(&scene.geometry, None);
     let options = Options {
         width: 96,
         height: 96,
         samples: 4,
         layers: Vec::new(),
     };
-    let film = render(&values, &scene, &stage, &options, &|_| ());
+    let film = render(&values, &scene, &aggregate, &options, &|_| ());
     let frame = &values;
     let scene = &scene;
     let member = Member { frame, scene };
-    look(member, &stage, &film)
+    look(member, &aggregate, &film)
 }
 
 /// Everything that a ball of glass in an even sky shows is the sky: what is lacking was left out.
@@ -146,7 +146,7 @@ fn film_of<T>(bounces: u32, look: impl FnOnce(Member<'_>, &Aggregate, &Film) -> 
 fn of_glass_in_an_even_sky_what_is_left_out_is_what_is_lacking() {
     let sky = 683.0 * 106.856_895; // lm/W times the sum of the CIE's ȳ over 360 to 830 nm.
     for bounces in [1, 2, 4, 8, 12] {
-        film_of(bounces, |member, stage, film| {
+        film_of(bounces, |member, aggregate, film| {
             let seen: f64 = film.xyz.iter().map(|xyz| f64::from(xyz[1])).sum();
             let lacking = 1.0 - seen / sky / film.xyz.len() as f64;
             let share = film.left_out.share();
@@ -157,7 +157,7 @@ fn of_glass_in_an_even_sky_what_is_left_out_is_what_is_lacking() {
             );
             assert!(share > 0.0, "{bounces}");
             let size = [film.width, film.height];
-            let enough = enough_bounces(member, stage, size, &film.left_out);
+            let enough = enough_bounces(member, aggregate, size, &film.left_out);
             if share <= SILENT {
                 return;
             }
@@ -182,8 +182,8 @@ fn what_is_left_out_is_the_same_on_any_number_of_threads() {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
         let pool = pool.build().unwrap();
         pool.install(|| {
-            film_of(1, |member, stage, film| {
-                let enough = enough_bounces(member, stage, [96, 96], &film.left_out);
+            film_of(1, |member, aggregate, film| {
+                let enough = enough_bounces(member, aggregate, [96, 96], &film.left_out);
                 (film.left_out, enough)
             })
         })

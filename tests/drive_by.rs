@@ -50,12 +50,12 @@ fn with(lines: &[(&str, &str)]) -> Prepared {
 fn probes(prepared: &Prepared, frame: u32, pixels: &[[u32; 2]]) -> Vec<Probe> {
     let shot = &prepared.shot;
     let scene = Scene::resolve(&Frame::new(shot, frame).unwrap(), &prepared.library, None).unwrap();
-    let stage = build_aggregate(&scene.geometry, None);
+    let aggregate = build_aggregate(&scene.geometry, None);
     let view = View::new(
         &Frame::new(shot, frame).unwrap(),
         &shot.effects,
         &scene,
-        &stage,
+        &aggregate,
     );
     let look = |pixel: &[u32; 2]| {
         probe(

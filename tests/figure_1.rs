@@ -45,8 +45,8 @@ fn from_light(probe: &Probe) -> f64 {
     let seen = probe.wavelengths.iter().zip(&probe.radiance);
     let (nm, radiance) = seen.max_by(|a, b| a.1.total_cmp(b.1)).unwrap();
     let lambda = nm * 1e-9;
-    let per_metre = radiance * 1e9;
-    let quantum = (2.0 * h * c * c / lambda.powi(5) / per_metre).ln_1p();
+    let per_meter = radiance * 1e9;
+    let quantum = (2.0 * h * c * c / lambda.powi(5) / per_meter).ln_1p();
     h * c / (lambda * k * quantum) / TEMPERATURE_K
 }
 
@@ -58,8 +58,8 @@ fn probes() -> Vec<Probe> {
         .map(|frame| {
             let values = Frame::new(shot, frame).unwrap();
             let scene = Scene::resolve(&values, &prepared.library, None).unwrap();
-            let stage = build_aggregate(&scene.geometry, None);
-            let view = View::new(&values, &shot.effects, &scene, &stage);
+            let aggregate = build_aggregate(&scene.geometry, None);
+            let view = View::new(&values, &shot.effects, &scene, &aggregate);
             probe(&values, [0, 0], &view, &scene, 0.0)
         })
         .collect()

@@ -251,7 +251,7 @@ fn an_exr_tells_everything_that_was_decided_about_the_frame() {
 }
 
 #[test]
-fn files_of_bands_claim_no_colour() {
+fn files_of_bands_claim_no_color() {
     let metadata = Metadata {
         channels: Channels::Bands,
         window_nm: Some([4000.0, 14000.5]),

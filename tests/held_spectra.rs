@@ -353,7 +353,7 @@ fn bands_of_lines_are_those_of_the_spline() {
 }
 
 #[test]
-fn flat_light_on_grey_is_exact_under_any_shifts() {
+fn flat_light_on_gray_is_exact_under_any_shifts() {
     let (shot, scene) = scene();
     let shader = lines(&shot, &scene, 5.0);
     for (doppler, lamp) in [(1.0, 1.0), (0.3, 1.0), (1.7, 0.6), (4.9, 1.1)] {
@@ -366,7 +366,7 @@ fn flat_light_on_grey_is_exact_under_any_shifts() {
 }
 
 #[test]
-fn a_grey_surface_leaves_its_share_of_any_light() {
+fn a_gray_surface_leaves_its_share_of_any_light() {
     let (mut shot, scene) = scene();
     let share = |shader: &Shader, doppler: f64| {
         for light in [D65, WARM] {

@@ -30,7 +30,6 @@ mod keys;
 mod layout;
 mod models;
 mod narrow;
-mod night;
 mod page;
 mod plan;
 mod plates;
@@ -39,6 +38,7 @@ mod probe;
 mod projections;
 mod properties;
 mod reference;
+mod runs;
 mod sequence;
 mod shading;
 #[cfg(target_os = "linux")]

@@ -118,8 +118,8 @@ fn answers(prepared: &Prepared, frame: u32, pixels: &[[u32; 2]]) -> Vec<(Probe, 
     let shot = &prepared.shot;
     let values = Frame::new(shot, frame).unwrap();
     let scene = Scene::resolve(&values, &prepared.library, None).unwrap();
-    let stage = build_aggregate(&scene.geometry, None);
-    let view = View::new(&values, &shot.effects, &scene, &stage);
+    let aggregate = build_aggregate(&scene.geometry, None);
+    let view = View::new(&values, &shot.effects, &scene, &aggregate);
     let stops = prepared.exposure().unwrap().0.stops(&values);
     let answer = |&pixel: &[u32; 2]| {
         let point = [0, 1].map(|i| (f64::from(pixel[i]) + 0.5) / f64::from(shot.image.size[i]));

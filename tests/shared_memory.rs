@@ -47,7 +47,7 @@ fn prepared(text: &str) -> Prepared {
 fn peak(count: usize, prepared: &Prepared, options: &Options) -> u64 {
     let values = Frame::new(&prepared.shot, 1).unwrap();
     let scene = Scene::resolve(&values, &prepared.library, None).unwrap();
-    let stage = build_aggregate(&scene.geometry, None);
+    let aggregate = build_aggregate(&scene.geometry, None);
     let frame = &values;
     let scene = &scene;
     let member = Member { frame, scene };
@@ -57,7 +57,7 @@ fn peak(count: usize, prepared: &Prepared, options: &Options) -> u64 {
         stop,
     };
     std::fs::write("/proc/self/clear_refs", "5").unwrap();
-    let rendered = render_together(&vec![member; count], &stage, options, watch).unwrap();
+    let rendered = render_together(&vec![member; count], &aggregate, options, watch).unwrap();
     assert_eq!(rendered.films.len(), count);
     let status = std::fs::read_to_string("/proc/self/status").unwrap();
     let line = status
@@ -80,9 +80,14 @@ fn shader(prepared: &Prepared) -> u64 {
         None,
     )
     .unwrap();
-    let stage = build_aggregate(&scene.geometry, None);
+    let aggregate = build_aggregate(&scene.geometry, None);
     let shot = &prepared.shot;
-    let view = View::new(&Frame::new(shot, 1).unwrap(), &shot.effects, &scene, &stage);
+    let view = View::new(
+        &Frame::new(shot, 1).unwrap(),
+        &shot.effects,
+        &scene,
+        &aggregate,
+    );
     view.shader().bytes() as u64
 }
 

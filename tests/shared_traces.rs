@@ -125,8 +125,8 @@ fn scene(prepared: &Prepared) -> (Scene, Aggregate) {
         None,
     )
     .unwrap();
-    let stage = build_aggregate(&scene.geometry, None);
-    (scene, stage)
+    let aggregate = build_aggregate(&scene.geometry, None);
+    (scene, aggregate)
 }
 
 /// Frame 1 of a shot, whose scene stands in for its own. The frame outlives its member, and so is
@@ -139,11 +139,11 @@ fn member<'a>(prepared: &'a Prepared, scene: &'a Scene) -> Member<'a> {
 impl Image {
     fn new(changes: &[Changes<'_>], options: &Options) -> Self {
         let prepared = prepared(changes);
-        let (scene, stage) = scene(&prepared);
+        let (scene, aggregate) = scene(&prepared);
         let alone = render(
             &Frame::new(&prepared.shot, 1).unwrap(),
             &scene,
-            &stage,
+            &aggregate,
             options,
             &|_| (),
         );
@@ -177,7 +177,7 @@ fn options(samples: u32) -> Options {
 fn together(
     threads: usize,
     members: &[Member<'_>],
-    stage: &Aggregate,
+    aggregate: &Aggregate,
     options: &Options,
 ) -> Result<Together, Stopped> {
     let pool = rayon::ThreadPoolBuilder::new()
@@ -189,5 +189,5 @@ fn together(
         done: &|_| (),
         stop,
     };
-    pool.install(|| render_together(members, stage, options, watch))
+    pool.install(|| render_together(members, aggregate, options, watch))
 }

@@ -63,8 +63,8 @@ impl Folder {
         let shot = &prepared.shot;
         let frame = Frame::new(shot, 1).unwrap();
         let scene = Scene::resolve(&frame, &prepared.library, None).unwrap();
-        let stage = build_aggregate(&scene.geometry, None);
-        let view = View::new(&frame, &shot.effects, &scene, &stage);
+        let aggregate = build_aggregate(&scene.geometry, None);
+        let view = View::new(&frame, &shot.effects, &scene, &aggregate);
         let mut trees = ShadeTrees::default();
         let direction = scene.camera.looks_along([0.5, 0.5]).unwrap();
         view.tracer()
@@ -79,14 +79,14 @@ impl Folder {
         let prepared = self.shot(size, rest).unwrap_or_else(|m| panic!("{m}"));
         let frame = Frame::new(&prepared.shot, 1).unwrap();
         let scene = Scene::resolve(&frame, &prepared.library, None).unwrap();
-        let stage = build_aggregate(&scene.geometry, None);
+        let aggregate = build_aggregate(&scene.geometry, None);
         let options = Options {
             width: size,
             height: size,
             samples: 1,
             layers: Vec::new(),
         };
-        render(&frame, &scene, &stage, &options, &|_| ())
+        render(&frame, &scene, &aggregate, &options, &|_| ())
     }
 }
 

@@ -308,8 +308,8 @@ fn displaced(levels: &[u32]) -> Vec<Displacement> {
             geometry,
             ..original.clone()
         };
-        let stage = build_aggregate(&scene.geometry, None);
-        (scene, stage)
+        let aggregate = build_aggregate(&scene.geometry, None);
+        (scene, aggregate)
     };
     let finest = of(8);
     let view = |of: &(Scene, Aggregate), look: &dyn Fn(&View<'_>) -> Displacement| {

@@ -98,11 +98,11 @@ fn film(prepared: &Prepared, accuracy: Accuracy) -> Vec<[f32; 3]> {
     shot.accuracy = accuracy;
     let scene = Scene::resolve(&Frame::new(&shot, 1).unwrap(), &prepared.library, None)
         .expect("it resolves");
-    let stage = build_aggregate(&scene.geometry, None);
+    let aggregate = build_aggregate(&scene.geometry, None);
     let film = render(
         &Frame::new(&shot, 1).unwrap(),
         &scene,
-        &stage,
+        &aggregate,
         &OPTIONS,
         &|_| (),
     );

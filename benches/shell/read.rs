@@ -18,8 +18,8 @@ pub(crate) fn read(text: &str) -> (Prepared, Scene, Aggregate) {
         None,
     )
     .expect("it resolves");
-    let stage = build_aggregate(&scene.geometry, None);
-    (prepared, scene, stage)
+    let aggregate = build_aggregate(&scene.geometry, None);
+    (prepared, scene, aggregate)
 }
 
 /// A name of its own for each text, since benches run side by side.

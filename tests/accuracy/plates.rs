@@ -22,7 +22,7 @@ fn differences(number: u32) -> Comparison {
     let frame = Frame::new(&prepared.shot, 1).unwrap();
     let stops = prepared.exposure().unwrap().0.stops(&frame);
     let scene = Scene::resolve(&frame, &prepared.library, None).unwrap();
-    let stage = build_aggregate(&scene.geometry, None);
+    let aggregate = build_aggregate(&scene.geometry, None);
     let options = Options {
         width: SIZE[0],
         height: SIZE[1],
@@ -32,7 +32,7 @@ fn differences(number: u32) -> Comparison {
     let mut film = |spectra| {
         prepared.shot.accuracy.spectra = spectra;
         let frame = Frame::new(&prepared.shot, 1).unwrap();
-        render(&frame, &scene, &stage, &options, &|_| ())
+        render(&frame, &scene, &aggregate, &options, &|_| ())
     };
     let [exact, grid] = [Spectra::Exact, Spectra::Grid].map(&mut film);
     assert!(

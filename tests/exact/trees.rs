@@ -16,8 +16,8 @@ fn seen(prepared: &mut Prepared, accuracy: Accuracy) -> Vec<[f64; 3]> {
     let shot = &prepared.shot;
     let frame = Frame::new(shot, 1).unwrap();
     let scene = Scene::resolve(&frame, &prepared.library, None).unwrap();
-    let stage = build_aggregate(&scene.geometry, None);
-    let view = View::new(&frame, &shot.effects, &scene, &stage);
+    let aggregate = build_aggregate(&scene.geometry, None);
+    let view = View::new(&frame, &shot.effects, &scene, &aggregate);
     let [width, height] = shot.image.size;
     let centers = (0..height).flat_map(|y| (0..width).map(move |x| [x, y]));
     let directions: Vec<DVec3> = centers

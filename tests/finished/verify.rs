@@ -149,7 +149,7 @@ fn what_does_not_belong_to_the_shot_is_an_orphan() {
 }
 
 #[test]
-fn a_black_or_shifted_frame_does_not_fit_between_its_neighbours() {
+fn a_black_or_shifted_frame_does_not_fit_between_its_neighbors() {
     for frame in [1, 5, FRAMES] {
         let desk = Desk::small("");
         desk.put_png(frame, &image::RgbImage::new(64, 64));

@@ -15,8 +15,8 @@ fn displaced(text: &str) -> Displacement {
     let shot = &set.prepared.shot;
     let frame = Frame::new(shot, 1).unwrap();
     let scene = set.scene();
-    let stage = build_aggregate(&scene.geometry, None);
-    let view = View::new(&frame, &shot.effects, &scene, &stage);
+    let aggregate = build_aggregate(&scene.geometry, None);
+    let view = View::new(&frame, &shot.effects, &scene, &aggregate);
     displacement(&view, &view, shot.image.size)
 }
 
@@ -33,7 +33,7 @@ fn near_the_origin_nothing_is_displaced() {
 }
 
 #[test]
-fn a_million_metres_from_the_origin_next_to_nothing_is_displaced() {
+fn a_million_meters_from_the_origin_next_to_nothing_is_displaced() {
     let far = DVec3::new(1e6 + 0.27, -1e6 - 0.41, 1e6 + 0.13);
     let eye = far + DVec3::new(3.9, 0.4, 0.7);
     let found = displaced(&format!(

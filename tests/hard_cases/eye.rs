@@ -17,7 +17,7 @@ pub(crate) struct Eye<'a> {
     set: &'a Set,
     frame: u32,
     pub(crate) scene: Scene,
-    pub(crate) stage: Aggregate,
+    pub(crate) aggregate: Aggregate,
 }
 
 /// What a ray meets first.
@@ -48,12 +48,12 @@ impl<'a> Eye<'a> {
 
     /// A scene that stands in for the set's own.
     pub(crate) fn of(set: &'a Set, frame: u32, scene: Scene) -> Self {
-        let stage = build_aggregate(&scene.geometry, None);
+        let aggregate = build_aggregate(&scene.geometry, None);
         Self {
             set,
             frame,
             scene,
-            stage,
+            aggregate,
         }
     }
 
@@ -63,7 +63,7 @@ impl<'a> Eye<'a> {
             &Frame::new(shot, self.frame).unwrap(),
             &shot.effects,
             &self.scene,
-            &self.stage,
+            &self.aggregate,
         )
     }
 

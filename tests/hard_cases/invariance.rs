@@ -212,8 +212,13 @@ bounces = BOUNCES
 fn totally_reflected(text: &str) -> usize {
     let set = Set::new(text);
     let (shot, scene) = (&set.prepared.shot, set.scene());
-    let stage = build_aggregate(&scene.geometry, None);
-    let view = View::new(&Frame::new(shot, 1).unwrap(), &shot.effects, &scene, &stage);
+    let aggregate = build_aggregate(&scene.geometry, None);
+    let view = View::new(
+        &Frame::new(shot, 1).unwrap(),
+        &shot.effects,
+        &scene,
+        &aggregate,
+    );
     let [width, height] = shot.image.size;
     let directions: Vec<DVec3> = (0..width * height)
         .map(|i| [(i % width, width), (i / width, height)])

@@ -198,8 +198,8 @@ cases! {
         let total = |set: &Set, direction: DVec3| {
             let shot = &set.prepared.shot;
             let scene = set.scene();
-            let stage = build_aggregate(&scene.geometry, None);
-            let view = View::new(&Frame::new(shot, 1).unwrap(), &shot.effects, &scene, &stage);
+            let aggregate = build_aggregate(&scene.geometry, None);
+            let view = View::new(&Frame::new(shot, 1).unwrap(), &shot.effects, &scene, &aggregate);
             let mut trees = ShadeTrees::default();
             view.tracer().trace(&[direction], &mut Scratch::default(), &mut trees);
             let glass = scene.materials[0].bsdf.refraction().unwrap().0 as u32;

@@ -206,8 +206,13 @@ impl Hit {
 /// What the centres of the picture's pixels meet.
 pub(crate) fn hits(set: &Set) -> Vec<Option<Hit>> {
     let (shot, scene) = (&set.prepared.shot, set.scene());
-    let stage = build_aggregate(&scene.geometry, None);
-    let view = View::new(&Frame::new(shot, 1).unwrap(), &shot.effects, &scene, &stage);
+    let aggregate = build_aggregate(&scene.geometry, None);
+    let view = View::new(
+        &Frame::new(shot, 1).unwrap(),
+        &shot.effects,
+        &scene,
+        &aggregate,
+    );
     let [width, height] = shot.image.size;
     let directions: Vec<DVec3> = (0..width * height)
         .map(|i| [i % width, i / width].map(|p| f64::from(p) + 0.5))

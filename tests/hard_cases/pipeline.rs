@@ -197,8 +197,13 @@ exposure = 0
 fn backwards(set: &Set) -> Vec<[f32; 3]> {
     let shot = &set.prepared.shot;
     let scene = set.scene();
-    let stage = build_aggregate(&scene.geometry, None);
-    let view = View::new(&Frame::new(shot, 1).unwrap(), &shot.effects, &scene, &stage);
+    let aggregate = build_aggregate(&scene.geometry, None);
+    let view = View::new(
+        &Frame::new(shot, 1).unwrap(),
+        &shot.effects,
+        &scene,
+        &aggregate,
+    );
     let [width, height] = shot.image.size;
     let samples = Samples::new(shot.image.samples, shot.image.filter);
     let (mut scratch, mut shading) = (Scratch::default(), ShadeScratch::default());

@@ -60,9 +60,9 @@ impl Set {
     pub(crate) fn probe(&self, pixel: [u32; 2]) -> Probe {
         let shot = &self.prepared.shot;
         let scene = self.scene();
-        let stage = build_aggregate(&scene.geometry, None);
+        let aggregate = build_aggregate(&scene.geometry, None);
         let frame = Frame::new(shot, 1).unwrap();
-        let view = View::new(&frame, &shot.effects, &scene, &stage);
+        let view = View::new(&frame, &shot.effects, &scene, &aggregate);
         let stops = self.prepared.exposure().unwrap().0.stops(&frame);
         probe(&frame, pixel, &view, &scene, stops)
     }
@@ -86,7 +86,7 @@ impl Set {
     pub(crate) fn film_of(&self, scene: &Scene) -> Film {
         use restframe::shot::Layer::{Distance, Doppler, EmissionTime, Worldline};
         let shot = &self.prepared.shot;
-        let stage = build_aggregate(&scene.geometry, None);
+        let aggregate = build_aggregate(&scene.geometry, None);
         let [width, height] = shot.image.size;
         let options = Options {
             width,
@@ -97,7 +97,7 @@ impl Set {
         render(
             &Frame::new(shot, 1).unwrap(),
             scene,
-            &stage,
+            &aggregate,
             &options,
             &|_| (),
         )

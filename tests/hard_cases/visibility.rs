@@ -108,7 +108,9 @@ fn alone(eye: &Eye<'_>, spacetime: &Spacetime, worldline: usize, direction: DVec
         origin: event.x,
         direction: directions[0],
     };
-    let hit = eye.stage.intersect_ray(worldline, &ray, f64::INFINITY)?;
+    let hit = eye
+        .aggregate
+        .intersect_ray(worldline, &ray, f64::INFINITY)?;
     let emission = Event::new(event.t - hit.t, event.x + ray.direction * hit.t);
     Some(spacetime.link(0, worldline).event(emission).t)
 }
@@ -194,7 +196,7 @@ cases! {
             let (normal, distance) = planes[hit.triangle as usize];
             off = off.max((hit.t - distance / normal.dot(direction)).abs());
             let beyond = Ray { origin: direction * (hit.t + 1e-12), direction };
-            twice += u32::from(eye.stage.occludes_ray(1, &beyond, f64::INFINITY));
+            twice += u32::from(eye.aggregate.occludes_ray(1, &beyond, f64::INFINITY));
         }
         card.at_most("rest-frame distance of 1e5 points, off their facets", off, 1e-12);
         card.same("second hits of these rays", 0.0, f64::from(twice));
@@ -275,7 +277,7 @@ cases! {
         for instance in geometry.instances.iter_mut().step_by(2) {
             instance.double_sided = false;
         }
-        let stage = build_aggregate(&geometry, None);
+        let aggregate = build_aggregate(&geometry, None);
         let targets: Vec<DVec3> = geometry.instances.iter().flat_map(|instance| {
             let place = instance.rest_from_mesh;
             triangles(&geometry.meshes[instance.mesh as usize])
@@ -296,11 +298,11 @@ cases! {
             let aim = target - origin;
             let direction = if i % 4 == 3 || aim == DVec3::ZERO { dice.direction() } else { aim.normalize() };
             let ray = Ray { origin, direction };
-            let first = stage.intersect_without_trees(1, &ray, f64::INFINITY);
+            let first = aggregate.intersect_without_trees(1, &ray, f64::INFINITY);
             let reach = first.map_or(1.0, |hit| hit.t);
             // Also just as far as that, and not as far.
             let differ = [f64::INFINITY, reach, reach * 0.999].map(|reach| {
-                bits(stage.intersect_ray(1, &ray, reach)) != bits(stage.intersect_without_trees(1, &ray, reach))
+                bits(aggregate.intersect_ray(1, &ray, reach)) != bits(aggregate.intersect_without_trees(1, &ray, reach))
             });
             [u32::from(differ.contains(&true)), u32::from(first.is_some())]
         };
@@ -350,14 +352,14 @@ cases! {
 /// Rays that meet bodies of the lab and of worldline 2 at the same parameter, to the bit.
 fn ties(scene: &Scene) -> usize {
     let spacetime = Spacetime::new(scene, true);
-    let stage = build_aggregate(&scene.geometry, None);
+    let aggregate = build_aggregate(&scene.geometry, None);
     let meets = |worldline: usize, direction: DVec3| {
         let (directions, ratios) = boosted(&spacetime, worldline, 0, &[direction]);
         let ray = Ray {
             origin: spacetime.camera_event(worldline).x,
             direction: directions[0],
         };
-        Some(stage.intersect_ray(worldline, &ray, f64::INFINITY)?.t / ratios[0])
+        Some(aggregate.intersect_ray(worldline, &ray, f64::INFINITY)?.t / ratios[0])
     };
     let tied = |i: &i32| {
         let direction = scene

@@ -92,14 +92,14 @@ fn pixels(desk: &Desk, subject: &str) -> Vec<u8> {
     let library = Library::load(&shot).unwrap();
     let frame = Frame::new(&shot, 1).unwrap();
     let scene = Scene::resolve(&frame, &library, None).unwrap();
-    let stage = build_aggregate(&scene.geometry, None);
+    let aggregate = build_aggregate(&scene.geometry, None);
     let options = Options {
         width: shot.image.size[0],
         height: shot.image.size[1],
         samples: shot.image.samples,
         layers: Vec::new(),
     };
-    let film = render(&frame, &scene, &stage, &options, &|_| ());
+    let film = render(&frame, &scene, &aggregate, &options, &|_| ());
     let development = development(shot.sensor.color, 0.0);
     to_rgb8(&develop(&film, &development), development.encode)
 }

@@ -146,14 +146,14 @@ impl Write for Hashing {
 
 /// All numbers of a shot's shade trees, hashed.
 fn trees(shot: &Shot, scene: &Scene) -> String {
-    let stage = build_aggregate(&scene.geometry, None);
+    let aggregate = build_aggregate(&scene.geometry, None);
     let samples = Samples::new(shot.image.samples, shot.image.filter);
     let [width, height] = shot.image.size;
     let mut all = Hashing(blake3::Hasher::new());
     write!(all, "{width} x {height}, {} samples", shot.image.samples).unwrap();
     let mut scratch = Scratch::default();
     let frame = Frame::new(shot, 1).unwrap();
-    let view = |effects: &Effects| View::new(&frame, effects, scene, &stage);
+    let view = |effects: &Effects| View::new(&frame, effects, scene, &aggregate);
     let whole = view(&frame.effects);
     let splices = frame.splices.iter();
     let parts: Vec<_> = splices

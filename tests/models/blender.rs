@@ -288,9 +288,9 @@ fn obj_materials_are_those_of_the_library() {
         );
         assert!(file != "zoo-groups" || model.meshes.iter().all(|mesh| mesh.normals.is_none()));
     }
-    let coloured = open("tests/models/vertex-colours.obj");
+    let colored = open("tests/models/vertex-colours.obj");
     assert!(matches!(
-        coloured.warnings[..],
+        colored.warnings[..],
         [Warning::VertexColors { .. }]
     ));
 }

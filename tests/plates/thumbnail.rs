@@ -68,7 +68,7 @@ pub(crate) fn film(prepared: &Prepared, frame: u32) -> Film {
         None,
     )
     .unwrap();
-    let stage = build_aggregate(&scene.geometry, None);
+    let aggregate = build_aggregate(&scene.geometry, None);
     let options = Options {
         width: WIDTH,
         height: HEIGHT,
@@ -78,7 +78,7 @@ pub(crate) fn film(prepared: &Prepared, frame: u32) -> Film {
     render(
         &Frame::new(&prepared.shot, frame).unwrap(),
         &scene,
-        &stage,
+        &aggregate,
         &options,
         &|_| (),
     )
@@ -99,10 +99,10 @@ impl Thumbnail {
         };
         let rgb8 = to_rgb8(&develop(&film, &development), encode);
         let scene = Scene::resolve(&values, &prepared.library, None).unwrap();
-        let stage = build_aggregate(&scene.geometry, None);
+        let aggregate = build_aggregate(&scene.geometry, None);
         let (mut probes, mut directions) = (Vec::new(), Vec::new());
         let effects = |y| values.effects_at(y);
-        let under = |effects| View::new(&values, &effects, &scene, &stage);
+        let under = |effects| View::new(&values, &effects, &scene, &aggregate);
         let mut view = under(effects(0));
         for y in 0..HEIGHT {
             if y > 0 && effects(y) != effects(y - 1) {

@@ -65,8 +65,10 @@ fn each_is_as_alone(common: Changes<'_>, options: &Options) {
         let order = (0..images.len()).map(|i| &images[(i + first) % images.len()]);
         let order: Vec<&Image> = order.collect();
         let members: Vec<_> = order.iter().map(|image| image.member()).collect();
-        let (_, stage) = scene(&order[0].prepared);
-        let films = together(threads, &members, &stage, options).unwrap().films;
+        let (_, aggregate) = scene(&order[0].prepared);
+        let films = together(threads, &members, &aggregate, options)
+            .unwrap()
+            .films;
         assert_eq!(films.len(), images.len());
         for (i, (film, image)) in films.iter().zip(order).enumerate() {
             let number = (i + first) % images.len();
@@ -134,8 +136,8 @@ fn a_pixel_of_more_samples_than_are_traced_at_once() {
     let images =
         [[].as_slice(), &[("KELVIN", "900")]].map(|differing| Image::new(&[differing], &options));
     let members = images.each_ref().map(Image::member);
-    let (_, stage) = scene(&images[0].prepared);
-    let films = together(2, &members, &stage, &options).unwrap().films;
+    let (_, aggregate) = scene(&images[0].prepared);
+    let films = together(2, &members, &aggregate, &options).unwrap().films;
     assert!(films[0] == images[0].alone && films[1] == images[1].alone);
 }
 
@@ -149,8 +151,8 @@ fn members_may_be_spliced_in_different_rows() {
     let changes: [Changes<'_>; 3] = [&[], &[("SPLICE", &upper)], &[("SPLICE", &lower)]];
     let images = changes.map(|change| Image::new(&[change], &options));
     let members = images.each_ref().map(Image::member);
-    let (_, stage) = scene(&images[0].prepared);
-    let films = together(2, &members, &stage, &options).unwrap().films;
+    let (_, aggregate) = scene(&images[0].prepared);
+    let films = together(2, &members, &aggregate, &options).unwrap().films;
     assert!(
         films
             .iter()
@@ -172,9 +174,14 @@ fn a_film_holds_the_means_of_its_samples_in_their_order() {
         ..options(2500)
     };
     let image = Image::new(&[], &options);
-    let (scene, stage) = scene(&image.prepared);
+    let (scene, aggregate) = scene(&image.prepared);
     let shot = &image.prepared.shot;
-    let view = View::new(&Frame::new(shot, 1).unwrap(), &shot.effects, &scene, &stage);
+    let view = View::new(
+        &Frame::new(shot, 1).unwrap(),
+        &shot.effects,
+        &scene,
+        &aggregate,
+    );
     let samples = Samples::new(options.samples, shot.image.filter);
     for (pixel, xyz) in image.alone.xyz.iter().enumerate() {
         let [x, y] = [pixel as u32 % 2, pixel as u32 / 2];
@@ -203,8 +210,8 @@ fn members_have_the_channels_of_their_own_sensors() {
     let changes: [Changes<'_>; 2] = [&[], &[("SENSOR", "color = \"bands\"")]];
     let images = changes.map(|change| Image::new(&[change], &options));
     let members = images.each_ref().map(Image::member);
-    let (_, stage) = scene(&images[0].prepared);
-    let films = together(1, &members, &stage, &options).unwrap().films;
+    let (_, aggregate) = scene(&images[0].prepared);
+    let films = together(1, &members, &aggregate, &options).unwrap().films;
     let channels: Vec<Channels> = films.iter().map(|film| film.channels).collect();
     assert_eq!(channels, [Channels::Xyz, Channels::Bands]);
 }
@@ -212,9 +219,9 @@ fn members_have_the_channels_of_their_own_sensors() {
 #[test]
 fn no_members_have_no_films() {
     let prepared: Prepared = super::prepared(&[]);
-    let (_, stage) = scene(&prepared);
+    let (_, aggregate) = scene(&prepared);
     assert!(
-        together(1, &[], &stage, &options(1))
+        together(1, &[], &aggregate, &options(1))
             .unwrap()
             .films
             .is_empty()

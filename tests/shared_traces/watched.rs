@@ -12,7 +12,7 @@ use std::time::{Duration, Instant};
 const PROMPT: Duration = Duration::from_millis(500);
 
 /// How long it takes to stop images in their midst; and the rays that were finished before.
-fn stopped(members: &[Member<'_>], stage: &Aggregate, options: &Options) -> (Duration, u64) {
+fn stopped(members: &[Member<'_>], aggregate: &Aggregate, options: &Options) -> (Duration, u64) {
     let (stop, rays) = (AtomicBool::new(false), AtomicU64::new(0));
     let done = |more: u64| {
         rays.fetch_add(more, Ordering::Relaxed);
@@ -25,7 +25,7 @@ fn stopped(members: &[Member<'_>], stage: &Aggregate, options: &Options) -> (Dur
     let pool = rayon::ThreadPoolBuilder::new().build().unwrap();
     let (told, returned) = std::thread::scope(|threads| {
         let work = threads.spawn(|| {
-            let result = pool.install(|| render_together(members, stage, options, watch));
+            let result = pool.install(|| render_together(members, aggregate, options, watch));
             (result, Instant::now())
         });
         while rays.load(Ordering::Relaxed) == 0 {
@@ -54,14 +54,14 @@ fn a_stop_in_mid_render_is_prompt_at_heavy_sampling() {
     ];
     for change in changes {
         let prepared = prepared(&[change]);
-        let (scene, stage) = scene(&prepared);
+        let (scene, aggregate) = scene(&prepared);
         let members = [member(&prepared, &scene); 16];
         let options = Options {
             width: 640,
             height: 360,
             ..options(65536)
         };
-        let (time, rays) = stopped(&members, &stage, &options);
+        let (time, rays) = stopped(&members, &aggregate, &options);
         println!("{change:?}: {time:?} after {rays} rays");
         assert!(time < PROMPT, "{change:?}: {time:?}");
     }
@@ -76,9 +76,9 @@ fn a_stop_is_prompt_under_thousands_of_lamps() {
     };
     let lamps: String = (0..2500).map(lamp).collect();
     let prepared = prepared(&[&[("PASSES", &lamps)]]);
-    let (scene, stage) = scene(&prepared);
+    let (scene, aggregate) = scene(&prepared);
     let members = [member(&prepared, &scene); 4];
-    let (time, _) = stopped(&members, &stage, &options(4096));
+    let (time, _) = stopped(&members, &aggregate, &options(4096));
     println!("{time:?}");
     assert!(time < PROMPT, "{time:?}");
 }
@@ -86,21 +86,21 @@ fn a_stop_is_prompt_under_thousands_of_lamps() {
 #[test]
 fn who_is_to_stop_before_the_start_renders_nothing() {
     let prepared = prepared(&[]);
-    let (scene, stage) = scene(&prepared);
+    let (scene, aggregate) = scene(&prepared);
     let stop = AtomicBool::new(true);
     let watch = Watch {
         done: &|_| unreachable!("no ray is traced"),
         stop: &stop,
     };
     let members = [member(&prepared, &scene); 2];
-    let result = render_together(&members, &stage, &options(4), watch);
+    let result = render_together(&members, &aggregate, &options(4), watch);
     assert!(matches!(result, Err(Stopped)));
 }
 
 #[test]
 fn every_ray_is_counted_once_for_each_image() {
     let prepared = prepared(&[]);
-    let (scene, stage) = scene(&prepared);
+    let (scene, aggregate) = scene(&prepared);
     let members = [member(&prepared, &scene); 3];
     for samples in [3, 2500] {
         let options = Options {
@@ -114,7 +114,7 @@ fn every_ray_is_counted_once_for_each_image() {
         };
         let stop = &AtomicBool::new(false);
         let watch = Watch { done: &done, stop };
-        render_together(&members, &stage, &options, watch).unwrap();
+        render_together(&members, &aggregate, &options, watch).unwrap();
         assert_eq!(rays.into_inner(), 5 * 9 * 3 * u64::from(samples));
     }
 }
@@ -124,7 +124,7 @@ fn every_ray_is_counted_once_for_each_image() {
 fn seconds_add_up_to_those_of_the_clock_on_the_wall() {
     const LEFT_OUT: f64 = 0.05;
     let prepared = prepared(&[]);
-    let (scene, stage) = scene(&prepared);
+    let (scene, aggregate) = scene(&prepared);
     let members = [member(&prepared, &scene); 8];
     let options = Options {
         width: 160,
@@ -140,7 +140,7 @@ fn seconds_add_up_to_those_of_the_clock_on_the_wall() {
         };
         let (told, whole) = pool.unwrap().install(|| {
             let begun = Instant::now();
-            let told = render_together(&members, &stage, &options, watch).unwrap();
+            let told = render_together(&members, &aggregate, &options, watch).unwrap();
             (told, begun.elapsed().as_secs_f64())
         });
         let sum = told.prepare + told.trace + told.shade;
@@ -156,7 +156,7 @@ fn seconds_add_up_to_those_of_the_clock_on_the_wall() {
 #[test]
 fn tracing_is_not_repeated_for_every_image() {
     let prepared = prepared(&[]);
-    let (scene, stage) = scene(&prepared);
+    let (scene, aggregate) = scene(&prepared);
     let options = Options {
         width: 160,
         height: 90,
@@ -164,7 +164,7 @@ fn tracing_is_not_repeated_for_every_image() {
     };
     let traces = [1, 12].map(|count| {
         let members = vec![member(&prepared, &scene); count];
-        together(1, &members, &stage, &options).unwrap().trace
+        together(1, &members, &aggregate, &options).unwrap().trace
     });
     println!("{traces:?} s");
     // Twelve times as long, if it were; other work on the machine may double either.

@@ -4,7 +4,7 @@ use super::desk::{PASSING, passing};
 use std::fs;
 
 #[test]
-fn a_night_of_fresh_frames_reads_no_model_and_records_nothing() {
+fn a_run_whose_frames_are_fresh_reads_no_model_and_records_nothing() {
     let desk = passing();
     // The model's warning shows whether it is read.
     let model = fs::read_to_string(desk.path("sphere.obj")).unwrap();
@@ -37,7 +37,7 @@ fn what_has_changed_is_rendered_anew_with_the_reason() {
     assert!(lines[0].contains("  stale because "), "{lines:?}");
     assert!(lines[1].contains("  stale because "), "{lines:?}");
     assert!(!lines[2].contains("because"), "{lines:?}");
-    // As the shot was before, the frames are those of another night.
+    // As the shot was before, the frames are those of another run.
     desk.write("passing.toml", PASSING);
     let outcome = desk.done("render passing.toml --frames 1-3 --json");
     assert_eq!(outcome.frames("rendered"), [1, 2, 3]);
