@@ -4,7 +4,7 @@ use restframe::accel::Hit;
 use restframe::color::cie::{EFFICACY, xyz_bar};
 use restframe::frame::{Frame, Sensor};
 use restframe::scene::{
-    Bsdf, Curve, Library, Lobe, LobeKind, Material, Reflectance, Scene, Thermal,
+    Bsdf, Curve, Library, Lobe, LobeKind, Material, Scene, Thermal, WeightedSpectrum,
 };
 use restframe::shade::{Settings, ShadeScratch, Shader};
 use restframe::shot::{self, Accuracy, Shot, Spectra};
@@ -119,12 +119,12 @@ impl Light {
     }
 }
 
-fn lobe(kind: LobeKind, reflectance: Reflectance) -> Bsdf {
+fn lobe(kind: LobeKind, reflectance: WeightedSpectrum) -> Bsdf {
     Bsdf::new(vec![Lobe { kind, reflectance }])
 }
 
-fn full(spectrum: Spectrum) -> Reflectance {
-    Reflectance {
+fn full(spectrum: Spectrum) -> WeightedSpectrum {
+    WeightedSpectrum {
         weight: 1.0,
         spectrum: Arc::new(spectrum),
     }
@@ -162,7 +162,7 @@ impl Wall {
         self.scene.materials[one] = named(&light.surface, "one");
         let mirror = light.mirror.clone().map(|spectrum| {
             let weight = 1.0;
-            lobe(LobeKind::Mirror, Reflectance { weight, spectrum })
+            lobe(LobeKind::Mirror, WeightedSpectrum { weight, spectrum })
         });
         self.scene.materials[two] = named(
             &Material {

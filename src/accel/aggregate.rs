@@ -1,9 +1,9 @@
 //! All bodies of an image: the instances of each worldline, at rest in its frame.
 
-use super::hit::Hit;
 use super::instance::Instance;
 use super::instance_bvh::InstanceBvh;
 use super::mesh_bvh::MeshBvh;
+use super::ray::Hit;
 use super::ray::{Ray, RayBatch, every_instance};
 use crate::model::Mesh;
 use indexmap::IndexSet;

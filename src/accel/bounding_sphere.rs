@@ -38,7 +38,7 @@ const ROUNDINGS: f64 = 4.0 * f64::EPSILON;
 /// Where the rounding of a way is this many radii, f32 would overflow, and nothing is known any more.
 const LOST: f64 = 1e30;
 
-/// How far along a ray (from the centre of a sphere, direction of squared length `d2`) it is on the
+/// How far along a ray (from the center of a sphere, direction of squared length `d2`) it is on the
 /// near side of the sphere; 0 inside or past that; None where the ray misses the sphere.
 #[inline(always)]
 pub(super) fn near_side(from_center: DVec3, direction: DVec3, d2: f64, radius: f64) -> Option<f64> {
@@ -66,7 +66,7 @@ pub(super) fn is_near(from_center: DVec3, direction: DVec3, radius: f64) -> bool
 }
 
 /// A ray of unit direction d from far away: how far it goes until it [`is_near`], and where it is
-/// then, from the sphere's centre. None where it misses the sphere, or nobody knows.
+/// then, from the sphere's center. None where it misses the sphere, or nobody knows.
 ///
 /// A way of length L ends off by ε|d_i|L in each coordinate. Along the ray that does no harm: from
 /// where it got to it is another way to the sphere, 10¹⁵ times shorter. Across it, the coordinate i

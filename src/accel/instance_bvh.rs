@@ -2,9 +2,9 @@
 
 use super::bounding_sphere::{BoundingSphere, brought_near, is_near, left, near_side};
 use super::bvh::{Bvh, TreeRay};
-use super::hit::Hit;
 use super::instance::{Instance, PlacedInstance};
 use super::mesh_bvh::MeshBvh;
+use super::ray::Hit;
 use super::ray::Ray;
 use glam::DVec3;
 use std::sync::Arc;

@@ -2,8 +2,8 @@
 
 use super::bounding_sphere::{BoundingSphere, left, near_side};
 use super::bvh::{Bvh, TreeRay};
-use super::hit::Hit;
 use super::instance::PlacedInstance;
+use super::ray::Hit;
 use super::ray::Ray;
 use super::triangle::{Crossing, ShearedRay};
 use crate::model::Mesh;

@@ -12,7 +12,6 @@
 mod aggregate;
 mod bounding_sphere;
 mod bvh;
-mod hit;
 mod instance;
 mod instance_bvh;
 mod mesh_bvh;
@@ -20,6 +19,5 @@ mod ray;
 mod triangle;
 
 pub use aggregate::Aggregate;
-pub use hit::Hit;
 pub use instance::Instance;
-pub use ray::{Ray, RayBatch, every_instance};
+pub use ray::{Hit, Ray, RayBatch, every_instance};

@@ -1,4 +1,5 @@
-//! Rays in one worldline's rest frame: single, and as a structure of arrays.
+//! Rays in one worldline's rest frame, single and as a structure of arrays, and the record of where one meets
+//! a triangle.
 //!
 //! A ray is an event and a past-pointing null vector. In the rest frame it is given by the event's
 //! time and place and by a unit direction; c = 1, lengths and times are metres.
@@ -72,4 +73,36 @@ impl RayBatch {
 #[inline(always)]
 pub fn every_instance(_ray: usize, _instance: u32) -> bool {
     true
+}
+
+/// What a ray meets first among the bodies of one worldline.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Hit {
+    /// Length along the ray, in metres of the rest frame.
+    pub t: f64,
+    /// Number of the instance, in the order in which instances were given.
+    pub instance: u32,
+    /// Number of the triangle in its mesh.
+    pub triangle: u32,
+    /// Barycentric weights of the triangle's vertices.
+    pub weights: [f64; 3],
+    /// Whether the mesh's front is seen.
+    pub front: bool,
+}
+
+impl Hit {
+    /// Nearest first; at the same place the body and the triangle that were given first, so that
+    /// the picture does not depend on the order of traversal.
+    pub(super) fn precedes(&self, other: &Self) -> bool {
+        (self.t, self.instance, self.triangle) < (other.t, other.instance, other.triangle)
+    }
+
+    /// The same hit of a ray that starts earlier by `way` metres.
+    #[inline(always)]
+    pub(super) fn after(self, way: f64) -> Self {
+        Self {
+            t: way + self.t,
+            ..self
+        }
+    }
 }

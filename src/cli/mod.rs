@@ -4,7 +4,6 @@
 //! everything was done, 1 if something failed while rendering, 2 for a mistake in the shot or in the
 //! arguments, 130 if interrupted (Ctrl-C), 143 if terminated.
 
-mod answer;
 mod arguments;
 mod assemble;
 mod check;

@@ -44,13 +44,13 @@ pub(super) fn run(arguments: &ProbeArguments) -> Result<(), Failed> {
             pixel[0], pixel[1]
         )));
     }
-    let (exposing, _) = prepared.exposure().map_err(|m| mistaken(&m))?;
+    let (shot_exposure, _) = prepared.exposure().map_err(|m| mistaken(&m))?;
     let frame = &Frame::new(shot, frame).map_err(|m| mistaken(&m))?;
     let scene = Scene::resolve(frame, &prepared.library, None).map_err(|m| mistaken(&m))?;
     let aggregate = build_aggregate(&scene.geometry, None);
     let effects = frame.effects_at(pixel[1]);
     let view = View::new(frame, &effects, &scene, &aggregate);
-    let stops = exposing.stops(frame);
+    let stops = shot_exposure.stops(frame);
     let answer = probe(frame, pixel, &view, &scene, stops);
     if let Some(file) = &arguments.plot {
         let stem = || Names::new(shot).stem;

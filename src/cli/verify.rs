@@ -1,6 +1,6 @@
 //! `restframe verify`: checks finished frames.
 
-use super::answer::Answer;
+use super::messages::Answer;
 use super::open::{open, worse};
 use super::{FAILURE, Failed, FinishedArguments, print};
 use crate::sequence::{Finding, Report, verify};

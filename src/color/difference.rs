@@ -213,7 +213,7 @@ mod tests {
     }
 
     #[test]
-    fn equal_colours_do_not_differ() {
+    fn equal_colors_do_not_differ() {
         for (a, b, _) in PUBLISHED {
             assert_eq!(delta_e_2000(a, a), 0.0);
             assert_eq!(delta_e_2000(b, b), 0.0);

@@ -32,7 +32,7 @@ impl Caption {
     pub fn new(frame: &Frame<'_>) -> Self {
         let camera = frame.celerity(frame.camera.worldline);
         let mut fastest = Celerity::REST;
-        for (_, worldline) in frame.riders() {
+        for (_, worldline) in frame.moving_things() {
             let relative = frame.celerity(worldline).seen_from(camera);
             if relative.magnitude() > fastest.magnitude() {
                 fastest = relative;

@@ -160,22 +160,22 @@ impl Frame<'_> {
     }
 
     /// Places of the worldlines that something to see rides on, each with what it is.
-    pub(super) fn riders(&self) -> impl Iterator<Item = (Rider<'_>, usize)> {
+    pub(super) fn moving_things(&self) -> impl Iterator<Item = (MovingThing<'_>, usize)> {
         let models = self.models.iter();
-        let models = models.map(|model| (Rider::Model(&model.name), model.worldline));
+        let models = models.map(|model| (MovingThing::Model(&model.name), model.worldline));
         let lights = self.lit_lamps();
-        let lights = lights.map(|light| (Rider::Light(&light.name), light.worldline));
-        let sky =
-            (!self.background.is_black()).then_some((Rider::Background, self.background.worldline));
+        let lights = lights.map(|light| (MovingThing::Light(&light.name), light.worldline));
+        let sky = (!self.background.is_black())
+            .then_some((MovingThing::Background, self.background.worldline));
         models.chain(lights).chain(sky)
     }
 
     /// The first thing that moves relative to the camera, in words.
     fn relative_motion(&self) -> Option<String> {
         let camera = self.celerity(self.camera.worldline);
-        self.riders().find_map(|(rider, worldline)| {
+        self.moving_things().find_map(|(thing, worldline)| {
             let own = self.celerity(worldline);
-            (own != camera).then(|| rider.describe(own.seen_from(camera)))
+            (own != camera).then(|| thing.describe(own.seen_from(camera)))
         })
     }
 
@@ -222,13 +222,13 @@ impl Frame<'_> {
 
 /// A thing that rides on a worldline.
 #[derive(Debug, Clone, Copy)]
-pub(super) enum Rider<'a> {
+pub(super) enum MovingThing<'a> {
     Model(&'a str),
     Light(&'a str),
     Background,
 }
 
-impl Rider<'_> {
+impl MovingThing<'_> {
     /// A sentence about its celerity as the camera sees it.
     fn describe(self, relative: Celerity) -> String {
         let thing = match self {

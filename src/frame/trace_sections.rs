@@ -13,7 +13,7 @@ use super::light::{Amount, Background, Light, Shines};
 use super::material::{Highlight, Material, Presence, Refraction, Term};
 use super::model::{Array, Model};
 use super::settings::{Resolution, Splice, aspect};
-use super::values::{Frame, Moving};
+use super::values::{ChangingSections, Frame};
 use super::{camera, worldline};
 use crate::relativity;
 use crate::shot::{Accuracy, Effects, Format, Image, Layer, Output};
@@ -45,7 +45,7 @@ impl Section {
     ];
 
     /// Whether it may be another in each frame.
-    pub(super) fn moves(self, moving: Moving) -> bool {
+    pub(super) fn moves(self, moving: ChangingSections) -> bool {
         match self {
             Self::Time => moving.time,
             Self::Camera => moving.camera,

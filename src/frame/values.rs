@@ -226,12 +226,12 @@ fn exposure_stops(at: At<'_>) -> Option<f64> {
 #[derive(Debug, Clone)]
 pub struct Frames<'a> {
     frame: Frame<'a>,
-    moving: Moving,
+    moving: ChangingSections,
 }
 
 /// Which sections of a shot are not the same in all frames.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) struct Moving {
+pub(super) struct ChangingSections {
     pub(super) time: bool,
     pub(super) camera: bool,
     pub(super) worldlines: bool,
@@ -241,7 +241,7 @@ pub(super) struct Moving {
     pub(super) background: bool,
 }
 
-impl Moving {
+impl ChangingSections {
     fn new(shot: &Shot) -> Self {
         let own = shot.moving();
         // Names of spectra are resolved where they are used.
@@ -262,7 +262,7 @@ impl<'a> Frames<'a> {
     pub fn new(shot: &'a Shot) -> Self {
         Self {
             frame: Frame::unchecked(shot, 1),
-            moving: Moving::new(shot),
+            moving: ChangingSections::new(shot),
         }
     }
 
@@ -283,7 +283,7 @@ impl<'a> Frames<'a> {
     }
 
     /// Which sections may be others in each frame.
-    pub(super) fn moving(&self) -> Moving {
+    pub(super) fn moving(&self) -> ChangingSections {
         self.moving
     }
 

@@ -1,7 +1,7 @@
-//! Contents of a model file, as plain values.
+//! Contents of a model file, as plain values, and measures of the whole with every instance in place.
 
 use super::Warning;
-use ::glam::{DAffine3, DVec3, Vec3};
+use glam::{DAffine3, DVec3, Vec3};
 
 /// The contents of a model file.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -91,4 +91,58 @@ pub enum LampKind {
         /// Half-angle beyond which the lamp is dark, radians. At least `inner`.
         outer: f64,
     },
+}
+
+impl Model {
+    /// Number of triangles, each instance counted.
+    pub fn triangles(&self) -> usize {
+        self.placements
+            .iter()
+            .map(|p| self.meshes[p.mesh].triangles.len())
+            .sum()
+    }
+
+    /// The vertices of every triangle in model space, with the index of its placement.
+    pub fn world_triangles(&self) -> impl Iterator<Item = (usize, [DVec3; 3])> + '_ {
+        self.placements
+            .iter()
+            .enumerate()
+            .flat_map(|(index, placement)| {
+                let mesh = &self.meshes[placement.mesh];
+                mesh.triangles.iter().map(move |corners| {
+                    let point =
+                        |i: u32| placement.world.transform_point3(mesh.positions[i as usize]);
+                    (index, corners.map(point))
+                })
+            })
+    }
+
+    /// Area of all surfaces, m².
+    pub fn area(&self) -> f64 {
+        self.world_triangles()
+            .map(|(_, [a, b, c])| (b - a).cross(c - a).length() / 2.0)
+            .sum()
+    }
+
+    /// Signed volume within all surfaces, m³, meaningful if they are closed. Negative if the
+    /// triangles are wound inward, as those of a mirrored instance are.
+    pub fn volume(&self) -> f64 {
+        let Some((low, high)) = self.bounds() else {
+            return 0.0;
+        };
+        let center = (low + high) / 2.0;
+        self.world_triangles()
+            .map(|(_, [a, b, c])| (a - center).dot((b - center).cross(c - center)) / 6.0)
+            .sum()
+    }
+
+    /// Least and greatest coordinates of all surfaces, meters; None if there are none.
+    pub fn bounds(&self) -> Option<(DVec3, DVec3)> {
+        self.world_triangles()
+            .flat_map(|(_, corners)| corners)
+            .fold(None, |bounds, point| {
+                let (low, high) = bounds.unwrap_or((point, point));
+                Some((low.min(point), high.max(point)))
+            })
+    }
 }

@@ -17,7 +17,6 @@ mod error;
 mod gltf;
 mod load;
 mod material;
-mod measure;
 mod mesh;
 mod obj;
 mod polygon;

@@ -72,7 +72,7 @@ pub fn insets(
     seen.into_iter().zip(plots).map(plot).collect()
 }
 
-/// The plot of what the centre of `pixel`, which lies in the frame's image, sees in `view`. Exposure
+/// The plot of what the center of `pixel`, which lies in the frame's image, sees in `view`. Exposure
 /// is in stops.
 pub fn inset(
     frame: &Frame<'_>,

@@ -8,11 +8,9 @@ mod event;
 mod json;
 mod mode;
 mod open_jd;
-mod outcome;
 mod tally;
 mod text;
 
-pub use event::{Event, Sink, Summary};
+pub use event::{Event, FrameOutcome, Sink, Summary};
 pub use mode::{Mode, Results};
-pub use outcome::FrameOutcome;
 pub use tally::Progress;

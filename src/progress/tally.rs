@@ -3,9 +3,9 @@
 //! Work is counted in expected cost, in any unit, so that cheap frames do not distort the time
 //! left.
 
+use super::event::FrameOutcome;
 use super::event::{Event, Sink, Summary};
 use super::mode::{Mode, Results, sinks};
-use super::outcome::FrameOutcome;
 use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};

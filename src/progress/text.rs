@@ -2,8 +2,8 @@
 //! plain line for each frame, without escapes or carriage returns.
 
 use super::bar::Bar;
+use super::event::FrameOutcome;
 use super::event::{Event, Sink, Summary};
-use super::outcome::FrameOutcome;
 use std::io::{self, Write};
 use std::path::PathBuf;
 

@@ -8,7 +8,7 @@ use super::shard::Shard;
 use crate::accel::Aggregate;
 use crate::frame::{Frame, FrameFingerprint, Frames, TraceKey};
 use crate::progress::{FrameOutcome, Progress};
-use crate::render::{Exposing, Options, Prepared};
+use crate::render::{Options, Prepared, ShotExposure};
 use crate::scene::Scene;
 use crate::shot::Mistakes;
 use crate::store::{
@@ -34,7 +34,7 @@ pub struct Job {
     pub(super) halted: Option<String>,
     pub(super) prepared: Option<Prepared>,
     pub(super) manifest: Option<ManifestWriter>,
-    pub(super) exposing: Option<Exposing>,
+    pub(super) shot_exposure: Option<ShotExposure>,
     /// Bodies and trees for the next image.
     pub(super) kept: Option<(Scene, Aggregate)>,
     /// Whether it has been handed out as finished.
@@ -75,7 +75,7 @@ impl Job {
             halted: None,
             prepared: None,
             manifest: None,
-            exposing: None,
+            shot_exposure: None,
             kept: None,
             is_reported: false,
         })

@@ -14,7 +14,6 @@ mod frames;
 mod job;
 mod jobs;
 mod memory;
-mod record;
 mod render_batch;
 mod run;
 mod settings;

@@ -7,7 +7,7 @@ use super::settings::Settings;
 use crate::accel::Aggregate;
 use crate::frame::Frame;
 use crate::progress::Progress;
-use crate::render::{Exposing, Member, Prepared, Stopped, Together, Watch, render_together};
+use crate::render::{Member, Prepared, ShotExposure, Stopped, Together, Watch, render_together};
 use crate::scene::Scene;
 use crate::shot::Mistakes;
 use crate::trace::build_aggregate;
@@ -85,23 +85,23 @@ pub(super) fn render(
 
 /// Exposure of a frame, stops.
 pub(super) fn stops(job: &Job, frame: &Frame<'_>) -> f64 {
-    let exposing = job.exposing.as_ref();
-    exposing.map_or(0.0, |exposing| exposing.stops(frame))
+    let shot_exposure = job.shot_exposure.as_ref();
+    shot_exposure.map_or(0.0, |shot_exposure| shot_exposure.stops(frame))
 }
 
 /// Determines a shot's exposure, once.
 fn meter(job: &mut Job, progress: &Progress<'_>) -> Result<(), Mistakes> {
-    let (None, Some(prepared)) = (&job.exposing, &job.prepared) else {
+    let (None, Some(prepared)) = (&job.shot_exposure, &job.prepared) else {
         return Ok(());
     };
-    let (exposing, kept) = prepared.exposure()?;
-    if matches!(exposing, Exposing::Black) {
+    let (shot_exposure, kept) = prepared.exposure()?;
+    if matches!(shot_exposure, ShotExposure::Black) {
         let path = prepared.shot.path.display();
         progress.warn(&format!(
             "{path}: frame 1 is black, so exposure is 0 stops; give sensor.exposure"
         ));
     }
-    job.exposing = Some(exposing);
+    job.shot_exposure = Some(shot_exposure);
     job.kept = kept;
     Ok(())
 }

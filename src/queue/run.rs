@@ -37,7 +37,7 @@ use std::time::Duration;
 /// [sensor]
 /// exposure = 0
 /// "#;
-/// let shot = restframe::shot::parse(text, Path::new("grey.toml"))?;
+/// let shot = restframe::shot::parse(text, Path::new("gray.toml"))?;
 /// let (progress, stop) = (Progress::silent(), Stop::default());
 /// let frames = Mutex::new(Vec::new());
 /// let keep = |frame| frames.lock().expect("no panic").push(frame);

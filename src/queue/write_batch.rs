@@ -3,12 +3,11 @@
 use super::batch::{ClaimedFrame, FrameTask};
 use super::job::Job;
 use super::memory::most_developed;
-use super::record::{new_record, warnings};
 use super::render_batch::{RenderedBatch, stops};
 use super::settings::{Output, RenderedFrame, Settings};
 use crate::accel::Aggregate;
 use crate::film::{Film, SILENT};
-use crate::frame::Frame;
+use crate::frame::{Frame, FrameFingerprint};
 use crate::plot::Plot;
 use crate::probe;
 use crate::progress::FrameOutcome;
@@ -16,7 +15,9 @@ use crate::render::{
     InsetTooSmall, Member, PictureInfo, Pictures, Together, encode, left_out_warning,
 };
 use crate::scene::Scene;
-use crate::store::{FileRecord, Record, Seconds, is_full, now, twice, write_atomically};
+use crate::store::{
+    FileRecord, Record, Seconds, host, is_full, now, peak_memory_mib, twice, write_atomically,
+};
 use rayon::prelude::*;
 use std::io;
 use std::time::{Duration, Instant};
@@ -275,5 +276,40 @@ impl ShutdownDeadline {
         const PATIENCE: Duration = Duration::from_secs(1);
         let since = *self.since.get_or_insert_with(Instant::now);
         since.elapsed() + self.last > PATIENCE
+    }
+}
+
+/// Warnings about a frame's image.
+pub(super) fn warnings(made: &Pictures, left_out: Option<String>) -> Vec<String> {
+    let saturated = (made.saturated > 0).then(|| {
+        let values = made.saturated;
+        format!("{values} values beyond what a file can hold were clamped")
+    });
+    let seen = saturated.into_iter().chain(left_out);
+    seen.chain(made.warnings.clone()).collect()
+}
+
+/// The record of a frame, except its files, times and warnings.
+pub(super) fn new_record(job: &Job, frame: &Frame<'_>, key: &FrameFingerprint) -> Record {
+    let options = job.options();
+    Record {
+        frame: frame.number,
+        fingerprint: key.fingerprint.clone(),
+        parts: key.inputs.clone(),
+        files: Vec::new(),
+        size: [options.width, options.height],
+        samples: options.samples,
+        effects: frame.active_names(),
+        trace: key.trace.clone(),
+        shared: 1,
+        exposure: stops(job, frame),
+        seconds: Seconds::default(),
+        warnings: Vec::new(),
+        cut: 0.0,
+        memory_mib: peak_memory_mib().map(|mib| mib as u64),
+        threads: u32::try_from(rayon::current_num_threads()).unwrap_or(u32::MAX),
+        host: host(),
+        version: env!("CARGO_PKG_VERSION").to_owned(),
+        finished: now(),
     }
 }

@@ -2,10 +2,10 @@
 //! every image.
 
 use super::band::{BAND, bands};
+use super::options::{Stopped, Watch};
 use super::paint::{Painter, Row};
-use super::profile::Lap;
+use super::profile::PhaseTimes;
 use super::view::{View, Views};
-use super::watch::{Stopped, Watch};
 use super::{Options, Profile};
 use crate::film::{Film, LeftOut};
 use crate::trace::Samples;
@@ -38,7 +38,7 @@ pub(super) fn expose(
         .into_par_iter()
         .enumerate()
         .map_init(Painter::default, |painter, (band, mut parts)| {
-            painter.lap = profile.map(|_| Lap::default());
+            painter.phase_times = profile.map(|_| PhaseTimes::default());
             painter.seconds = [0.0; 2];
             let first = (band * BAND) as u32;
             let last = (first + BAND as u32).min(options.height);
@@ -55,8 +55,8 @@ pub(super) fn expose(
             if let Some((lead, others)) = parts.split_first_mut() {
                 others.iter_mut().for_each(|part| part.copy_layers(lead));
             }
-            if let (Some(profile), Some(lap)) = (profile, &painter.lap) {
-                lap.report(profile);
+            if let (Some(profile), Some(phase_times)) = (profile, &painter.phase_times) {
+                phase_times.report(profile);
             }
             Ok(Exposed {
                 seconds: painter.seconds,

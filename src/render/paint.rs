@@ -2,8 +2,8 @@
 
 use super::band::Part;
 use super::left_out::light;
-use super::profile::Lap;
-use super::watch::{Stopped, Watch};
+use super::options::{Stopped, Watch};
+use super::profile::PhaseTimes;
 use super::{LabPath, Options, View};
 use crate::shade::ShadeScratch;
 use crate::shot::Layer;
@@ -123,7 +123,7 @@ pub(super) struct Painter {
     /// Seconds of tracing and of shading.
     pub(super) seconds: [f64; 2],
     /// Seconds by phase, if they are counted.
-    pub(super) lap: Option<Lap>,
+    pub(super) phase_times: Option<PhaseTimes>,
 }
 
 impl Painter {
@@ -150,8 +150,8 @@ impl Painter {
             let shading = traced.elapsed().as_secs_f64();
             self.seconds[0] += (traced - begun).as_secs_f64();
             self.seconds[1] += shading;
-            if let Some(lap) = &mut self.lap {
-                lap.shade += shading;
+            if let Some(phase_times) = &mut self.phase_times {
+                phase_times.shade += shading;
             }
             (watch.done)(piece.rays() * views.len() as u64);
         }
@@ -159,7 +159,7 @@ impl Painter {
     }
 
     fn trace(&mut self, view: &View<'_>, row: &Row<'_>, piece: &Piece) {
-        let begun = self.lap.as_ref().map(|_| Instant::now());
+        let begun = self.phase_times.as_ref().map(|_| Instant::now());
         self.directions.clear();
         self.pixels.clear();
         for x in piece.pixels.clone() {
@@ -172,11 +172,14 @@ impl Painter {
             self.pixels.push((x, first..self.directions.len()));
         }
         self.trees.clear();
-        if let (Some(lap), Some(begun)) = (&mut self.lap, begun) {
-            lap.aim += begun.elapsed().as_secs_f64();
+        if let (Some(phase_times), Some(begun)) = (&mut self.phase_times, begun) {
+            phase_times.aim += begun.elapsed().as_secs_f64();
         }
         let tracer = Tracer {
-            clock: self.lap.as_ref().map(|lap| &lap.clock),
+            clock: self
+                .phase_times
+                .as_ref()
+                .map(|phase_times| &phase_times.clock),
             ..view.tracer()
         };
         tracer.trace(&self.directions, &mut self.scratch, &mut self.trees);

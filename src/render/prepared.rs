@@ -1,11 +1,13 @@
 //! Shots read with all files that they name and checked frame by frame; and their exposure.
 
-use super::metered_exposure;
+use super::{Options, render};
 use crate::accel::Aggregate;
+use crate::film::auto_exposure;
 use crate::frame::{Frame, Frames, refuse_shifted_rgb};
 use crate::scene::{Library, Scene};
 use crate::shade::{Settings, Unresolved, unresolved};
-use crate::shot::{self, Exposure, Mistakes, Shot};
+use crate::shot::{self, Exposure, LARGEST_SIDE, Mistakes, Shot};
+use crate::trace::build_aggregate;
 use indexmap::IndexSet;
 use rayon::prelude::*;
 use std::path::Path;
@@ -93,13 +95,15 @@ impl Prepared {
     ///
     /// # Errors
     /// Mistakes of frame 1.
-    pub fn exposure(&self) -> Result<(Exposing, Option<(Scene, Aggregate)>), Mistakes> {
+    pub fn exposure(&self) -> Result<(ShotExposure, Option<(Scene, Aggregate)>), Mistakes> {
         match &self.shot.sensor.exposure {
-            Exposure::Stops(_) => Ok((Exposing::Authored, None)),
+            Exposure::Stops(_) => Ok((ShotExposure::Authored, None)),
             Exposure::Auto(_) => {
                 let metered = metered_exposure(&self.shot, &self.library)?;
-                let exposing = metered.stops.map_or(Exposing::Black, Exposing::Metered);
-                Ok((exposing, Some((metered.scene, metered.aggregate))))
+                let shot_exposure = metered
+                    .stops
+                    .map_or(ShotExposure::Black, ShotExposure::Metered);
+                Ok((shot_exposure, Some((metered.scene, metered.aggregate))))
             }
         }
     }
@@ -107,7 +111,7 @@ impl Prepared {
 
 /// The exposure of a shot's frames.
 #[derive(Debug, Clone)]
-pub enum Exposing {
+pub enum ShotExposure {
     /// As the author wrote it.
     Authored,
     /// As metered on frame 1, in stops.
@@ -116,7 +120,7 @@ pub enum Exposing {
     Black,
 }
 
-impl Exposing {
+impl ShotExposure {
     /// Exposure of one frame, in stops.
     pub fn stops(&self, frame: &Frame<'_>) -> f64 {
         match self {
@@ -126,3 +130,42 @@ impl Exposing {
         }
     }
 }
+
+/// Result of metering, with the scene of frame 1, so that rendering it need not repeat the work.
+pub struct Metered {
+    /// Exposure in stops; None if the image is black.
+    pub stops: Option<f64>,
+    /// The scene of frame 1.
+    pub scene: Scene,
+    /// Its bodies.
+    pub aggregate: Aggregate,
+}
+
+/// Exposure metered on a small render of frame 1, whatever frames are asked for.
+///
+/// # Errors
+/// Mistakes of frame 1.
+pub fn metered_exposure(shot: &Shot, library: &Library) -> Result<Metered, Mistakes> {
+    let frame = Frame::new(shot, 1)?;
+    let scene = Scene::resolve(&frame, library, None)?;
+    let aggregate = build_aggregate(&scene.geometry, None);
+    let [width, height] = frame.image.size.map(f64::from);
+    let rows = (METER_WIDTH * height / width)
+        .round()
+        .clamp(1.0, LARGEST_SIDE.into());
+    let options = Options {
+        width: METER_WIDTH as u32,
+        height: rows as u32,
+        samples: 1,
+        layers: Vec::new(),
+    };
+    let film = render(&frame, &scene, &aggregate, &options, &|_| ());
+    Ok(Metered {
+        stops: auto_exposure(&film),
+        scene,
+        aggregate,
+    })
+}
+
+/// Width of the render for metering, pixels.
+const METER_WIDTH: f64 = 160.0;

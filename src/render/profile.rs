@@ -40,13 +40,13 @@ impl Profile {
 
 /// Seconds of one thread.
 #[derive(Debug, Default)]
-pub(super) struct Lap {
+pub(super) struct PhaseTimes {
     pub(super) clock: Clock,
     pub(super) aim: f64,
     pub(super) shade: f64,
 }
 
-impl Lap {
+impl PhaseTimes {
     pub(super) fn report(&self, profile: &Profile) {
         profile.add(|sum| {
             sum.aim += self.aim;

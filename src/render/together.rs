@@ -2,9 +2,9 @@
 
 use super::band::empty_film;
 use super::expose::expose;
+use super::options::{Member, Stopped, Watch};
 use super::profile::Profile;
 use super::view::{RelativeMotions, Views};
-use super::watch::{Member, Stopped, Watch};
 use super::{Options, channels};
 use crate::accel::Aggregate;
 use crate::film::Film;

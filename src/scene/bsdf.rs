@@ -25,7 +25,7 @@ pub struct Lobe {
     /// Its geometry.
     pub kind: LobeKind,
     /// Share of light that it reflects; of a refraction, that it transmits.
-    pub reflectance: Reflectance,
+    pub reflectance: WeightedSpectrum,
 }
 
 /// The geometry of a lobe.
@@ -53,7 +53,7 @@ pub enum LobeKind {
 /// this field by a reference that is resolved with the point's uv, and the readers of this field
 /// are the places to change.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Reflectance {
+pub struct WeightedSpectrum {
     /// Factor, at least 0.
     pub weight: f64,
     /// Shape.
@@ -184,7 +184,7 @@ impl LobeKind {
     }
 }
 
-impl Reflectance {
+impl WeightedSpectrum {
     /// The largest share of light that it lets go on, at any wavelength.
     pub fn most(&self) -> f64 {
         (self.weight * self.spectrum.peak()).min(1.0)
@@ -204,7 +204,7 @@ mod tests {
         let spectrum = Arc::new(Spectrum::Constant(1.0));
         Lobe {
             kind,
-            reflectance: Reflectance { weight, spectrum },
+            reflectance: WeightedSpectrum { weight, spectrum },
         }
     }
 

@@ -1,7 +1,7 @@
 //! Materials: the lobes of a surface and its own light, made from the model file's material with the
 //! shot's laid over it. All spectra are those of the surface's rest frame.
 
-use super::bsdf::{Bsdf, Lobe, LobeKind, Reflectance};
+use super::bsdf::{Bsdf, Lobe, LobeKind, WeightedSpectrum};
 use super::spectra::Spectra;
 use crate::frame;
 use crate::model::ModelMaterial;
@@ -22,7 +22,7 @@ pub struct Material {
     /// Reflection and transmission.
     pub bsdf: Bsdf,
     /// Cold light of its own: spectral radiance scale × spectrum, W·m⁻²·sr⁻¹·nm⁻¹.
-    pub emission: Option<Reflectance>,
+    pub emission: Option<WeightedSpectrum>,
     /// Thermal light of its own.
     pub thermal: Option<Thermal>,
 }
@@ -89,7 +89,7 @@ impl MaterialError {
 impl Material {
     /// A material of a model file: its base colour and its glow.
     pub(super) fn imported(file: &ModelMaterial) -> Result<Self, SpectrumError> {
-        let term = |spectrum| Reflectance {
+        let term = |spectrum| WeightedSpectrum {
             weight: 1.0,
             spectrum,
         };
@@ -183,7 +183,7 @@ impl Material {
     /// The same without lobes and light that contribute nothing.
     pub(super) fn pruned(mut self) -> Self {
         self.bsdf = self.bsdf.pruned();
-        self.emission = self.emission.filter(Reflectance::is_seen);
+        self.emission = self.emission.filter(WeightedSpectrum::is_seen);
         self
     }
 
@@ -202,9 +202,9 @@ impl Material {
 fn laid(
     name: &'static str,
     over: frame::Term<'_>,
-    below: Option<Reflectance>,
+    below: Option<WeightedSpectrum>,
     spectra: &Spectra<'_>,
-) -> Result<Reflectance, MaterialError> {
+) -> Result<WeightedSpectrum, MaterialError> {
     let (kept, curve) = below.map_or((1.0, None), |b| (b.weight, Some(b.spectrum)));
     let weight = over.weight.unwrap_or(kept);
     let spectrum = match (over.spectrum, curve) {
@@ -213,7 +213,7 @@ fn laid(
         (None, None) if weight == 0.0 => Arc::new(Spectrum::Constant(0.0)),
         (None, None) => return Err(MaterialError::Unbacked(name)),
     };
-    Ok(Reflectance { weight, spectrum })
+    Ok(WeightedSpectrum { weight, spectrum })
 }
 
 /// Rounding that a product of authored numbers may carry above 1.

@@ -20,7 +20,7 @@ mod surfaces;
 
 pub use crate::model::Mesh;
 pub use body::{Geometry, Instance, SurfacePoint};
-pub use bsdf::{Bsdf, Lobe, LobeKind, Reflectance};
+pub use bsdf::{Bsdf, Lobe, LobeKind, WeightedSpectrum};
 pub use camera::Camera;
 pub use library::Library;
 pub use light::{Light, LightShape};

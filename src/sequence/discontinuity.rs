@@ -298,7 +298,7 @@ mod tests {
     }
 
     #[test]
-    fn a_frame_that_cannot_be_shown_is_no_neighbour() {
+    fn a_frame_that_cannot_be_shown_is_no_neighbor() {
         let mut differences = Differences::default();
         for (frame, rgb8) in (1..).zip(sequence(12, |t| 0.05 * t)) {
             differences.push(frame, (frame != 7).then(|| Grid::new(&rgb8, SIDE)));

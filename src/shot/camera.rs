@@ -51,7 +51,7 @@ pub enum Projection {
     /// other follows from square pixels, up to what the sphere has.
     Equirectangular,
     /// A dome (equidistant): the angle from where the camera looks grows in proportion to the
-    /// distance from the centre. Without `hfov` and `vfov` a circle of 180° spans the shorter side.
+    /// distance from the center. Without `hfov` and `vfov` a circle of 180° spans the shorter side.
     /// Outside of the circle nothing is seen: it is black, and layers have the background's values.
     Fisheye,
 }

@@ -19,7 +19,6 @@ mod load;
 mod material;
 mod named_files;
 mod names;
-mod near_names;
 mod sequence;
 mod settings;
 mod sky;

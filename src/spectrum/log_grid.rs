@@ -309,7 +309,7 @@ mod tests {
     fn a_sodium_line_keeps_its_shape_under_any_shift() {
         let line = |nm: f64| (-0.5 * ((nm - 589.0) / 5.0).powi(2)).exp();
         let shifts: Vec<f64> = (0..400).map(|i| 0.5 * 1.0041f64.powi(i)).collect();
-        // (h/32)²/8 · max|S''| with S'' in ln λ: (589/5)² at the centre.
+        // (h/32)²/8 · max|S''| with S'' in ln λ: (589/5)² at the center.
         let bound = (axis().spacing() / 32.0).powi(2) / 8.0 * (589.0f64 / 5.0).powi(2);
         let worst = worst(Some([500.0, 680.0]), &shifts, line);
         assert!(worst < bound * 1.01 + 1e-6, "{worst} {bound}");

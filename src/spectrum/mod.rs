@@ -32,7 +32,6 @@ pub mod illuminant;
 mod lines;
 mod log_grid;
 mod luminous;
-mod narrow_bound;
 pub mod planck;
 mod points;
 pub mod quadrature;

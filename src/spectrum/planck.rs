@@ -239,10 +239,10 @@ mod tests {
 
     #[test]
     fn short_waves_do_not_underflow_the_fifth_power() {
-        let per_metre = radiance(0.1, 1e7) * 1e9;
+        let per_meter = radiance(0.1, 1e7) * 1e9;
         assert!(
-            (per_metre / 6.720_461_386_135e27 - 1.0).abs() < 1e-12,
-            "{per_metre:e}"
+            (per_meter / 6.720_461_386_135e27 - 1.0).abs() < 1e-12,
+            "{per_meter:e}"
         );
     }
 

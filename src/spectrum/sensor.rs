@@ -278,7 +278,7 @@ mod tests {
     }
 
     #[test]
-    fn more_wavelengths_bring_a_narrow_band_closer_to_its_exact_colour() {
+    fn more_wavelengths_bring_a_narrow_band_closer_to_its_exact_color() {
         let band = |nm: f64| (-0.5 * ((nm - 571.3) / 4.0).powi(2)).exp();
         let exact = xyz_of(band);
         let mut before = f64::INFINITY;

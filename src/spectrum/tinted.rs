@@ -95,14 +95,14 @@ mod tests {
     }
 
     #[test]
-    fn white_is_d65_and_greys_are_as_much_of_it() {
+    fn white_is_d65_and_grays_are_as_much_of_it() {
         let d65 = Spectrum::Sampled(d65());
-        for grey in [0.0, 0.25, 1.0] {
-            let light = Spectrum::Tinted(Tinted::new([grey; 3]).unwrap());
+        for gray in [0.0, 0.25, 1.0] {
+            let light = Spectrum::Tinted(Tinted::new([gray; 3]).unwrap());
             for nm in [1.0, 300.0, 432.1, 560.0, 829.0, 1e9] {
-                assert_eq!(light.at(nm), grey * d65.at(nm));
+                assert_eq!(light.at(nm), gray * d65.at(nm));
             }
-            assert_eq!(light.peak(), grey * d65.peak());
+            assert_eq!(light.peak(), gray * d65.peak());
             assert_eq!(light.support_nm(), d65.support_nm());
         }
     }

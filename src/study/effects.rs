@@ -1,9 +1,9 @@
 //! Cost of each effect: the image with and without it, rendered alternately.
 
-use super::error::StudyError;
 use super::interleaved_timing::{median, most_rounds as pairs, timing};
 use super::results::EffectCost;
 use super::start::Start;
+use super::timed_render::StudyError;
 use super::timed_render::{Bodies, Subject, Variant};
 use crate::frame::{ActiveEffects, Frame, Splice};
 use crate::scene::{Library, Scene};

@@ -1,7 +1,7 @@
 //! Errors of an image against its reference, in radiance and in color.
 
-use super::error::StudyError;
 use super::results::{Errors, Percentiles};
+use super::timed_render::StudyError;
 use crate::color::spaces::{D65_XYZ, XYZ_FROM_RGB, apply};
 use crate::color::{delta_e_2000, lab_from_xyz};
 use crate::film::{Channels, Developed, Film, develop};

@@ -1,8 +1,8 @@
 //! Timing of variants against each other, in rounds, so that a machine that slows down affects all
 //! of them equally.
 
-use super::error::StudyError;
 use super::results::Timing;
+use super::timed_render::StudyError;
 use super::timed_render::{Run, Subject, Variant};
 
 /// Seconds above which a variant is rendered in the first [`FEW`] rounds only.

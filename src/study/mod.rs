@@ -7,10 +7,8 @@
 //! spectra are exact, other knobs and effects are studied with the grid.
 
 mod compare_1990;
-mod defaults;
 pub mod displacement;
 mod effects;
-mod error;
 mod errors;
 mod interleaved_timing;
 mod knobs;
@@ -23,8 +21,7 @@ mod sweep;
 mod timed_render;
 mod whole;
 
-pub use defaults::{default_frame, default_size};
-pub use error::StudyError;
 pub use results::Study;
-pub use start::Request;
+pub use start::{Request, default_frame, default_size};
+pub use timed_render::StudyError;
 pub use whole::study;

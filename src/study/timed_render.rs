@@ -1,16 +1,17 @@
 //! One timed render of an image, in the same way as every image is rendered, with seconds by phase.
 
-use super::error::StudyError;
 use crate::accel::Aggregate;
 use crate::film::{Film, develop};
 use crate::frame::Frame;
+use crate::image::EncodeError;
+use crate::image::compare::CompareError;
 use crate::probe;
 use crate::render::{
-    Exposing, Member, Options, PictureInfo, Pictures, Profile, View, development, encode,
+    Member, Options, PictureInfo, Pictures, Profile, ShotExposure, View, development, encode,
     render_profiled,
 };
 use crate::scene::Scene;
-use crate::shot::Shot;
+use crate::shot::{Mistakes, Shot};
 use crate::store::{forget_peak, peak_memory_mib, write_atomically};
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -34,10 +35,10 @@ pub(super) struct Subject {
 
 impl Subject {
     /// The subject of a shot.
-    pub(super) fn new(frame: &Frame<'_>, exposing: &Exposing, scratch: PathBuf) -> Self {
+    pub(super) fn new(frame: &Frame<'_>, shot_exposure: &ShotExposure, scratch: PathBuf) -> Self {
         Self {
             frame: frame.number,
-            stops: exposing.stops(frame),
+            stops: shot_exposure.stops(frame),
             scratch,
         }
     }
@@ -169,4 +170,24 @@ impl Variant {
             files,
         })
     }
+}
+
+/// Reason why a study failed.
+#[derive(Debug, thiserror::Error)]
+pub enum StudyError {
+    /// The shot has a mistake that shows in this frame.
+    #[error("the shot has mistakes")]
+    Mistakes(#[from] Mistakes),
+    /// An image could not be encoded.
+    #[error(transparent)]
+    Encode(#[from] EncodeError),
+    /// A file could not be written.
+    #[error("{0}")]
+    Write(#[from] std::io::Error),
+    /// A file that was written could not be read back.
+    #[error("a picture just written cannot be read: {0}")]
+    Read(#[from] image::ImageError),
+    /// Two images could not be compared.
+    #[error(transparent)]
+    Compare(#[from] CompareError),
 }

@@ -1,12 +1,12 @@
 //! A study of one image: every knob, every effect, the phases of its time.
 
 use super::compare_1990::Compared;
-use super::error::StudyError;
 use super::interleaved_timing::{Measured, measure, median};
 use super::knobs::KNOBS;
 use super::results::Study;
 use super::results::{Machine, Noise, PhaseTime};
 use super::start::{Request, Start};
+use super::timed_render::StudyError;
 use super::timed_render::{Bodies, PHASES, Subject, Variant};
 use super::{effects, knobs, ranking, sweep};
 use crate::frame::{ActiveEffects, Frame};
@@ -29,8 +29,8 @@ pub fn study(
     let shot = &prepared.shot;
     let frame = Frame::new(shot, request.frame)?;
     let active = frame.active_effects(&frame.effects);
-    let (exposing, _) = prepared.exposure()?;
-    let subject = Subject::new(&frame, &exposing, request.scratch.clone());
+    let (shot_exposure, _) = prepared.exposure()?;
+    let subject = Subject::new(&frame, &shot_exposure, request.scratch.clone());
     let scene = Scene::resolve(&frame, &prepared.library, None)?;
     let aggregate = build_aggregate(&scene.geometry, None);
     let start = Start {

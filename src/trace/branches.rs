@@ -280,7 +280,7 @@ mod tests {
     use super::*;
     use crate::accel::Hit;
     use crate::relativity::Event;
-    use crate::scene::{Bsdf, Lobe, LobeKind, Reflectance};
+    use crate::scene::{Bsdf, Lobe, LobeKind, WeightedSpectrum};
     use crate::spectrum::Spectrum;
     use proptest::prelude::*;
     use std::sync::Arc;
@@ -306,7 +306,7 @@ mod tests {
     }
 
     fn glass(ior: f64) -> Material {
-        let all = Reflectance {
+        let all = WeightedSpectrum {
             weight: 1.0,
             spectrum: Arc::new(Spectrum::Constant(1.0)),
         };

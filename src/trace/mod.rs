@@ -14,7 +14,6 @@
 //! the frequency ratio, so s is the length there over that ratio, and 1 over it is the Doppler
 //! factor.
 
-mod bodies;
 mod branches;
 mod clock;
 mod direct;
@@ -30,11 +29,10 @@ mod tracer;
 mod tree;
 mod waves;
 
-pub use bodies::build_aggregate;
 pub use clock::{Clock, Phase};
 pub use link::{Link, boost_directions};
 pub use sampler::{Samples, filter_offset};
 pub use spacetime::Spacetime;
-pub use tracer::Tracer;
+pub use tracer::{Tracer, build_aggregate};
 pub use tree::{Branch, DirectLight, Node, Root, Seen, ShadeTrees, Surface};
 pub use waves::Scratch;

@@ -24,7 +24,7 @@ const INVERSE_POINTS: usize = 4096;
 static INVERSE_BLACKMAN_HARRIS: LazyLock<Vec<f64>> = LazyLock::new(inverse_blackman_harris);
 
 impl Samples {
-    /// `count` samples a pixel; one sample stands at the pixel's centre.
+    /// `count` samples a pixel; one sample stands at the pixel's center.
     pub fn new(count: u32, filter: Filter) -> Self {
         let inverse: &[f64] = match filter {
             Filter::Box => &[],
@@ -170,7 +170,7 @@ mod tests {
     }
 
     #[test]
-    fn one_sample_stands_at_the_centre() {
+    fn one_sample_stands_at_the_center() {
         assert_eq!(
             Samples::new(1, Filter::BlackmanHarris).position(7, 8, 0),
             [0.5, 0.5]

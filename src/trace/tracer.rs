@@ -2,8 +2,8 @@
 
 use super::clock::Clock;
 use super::spacetime::Spacetime;
-use crate::accel::Aggregate;
-use crate::scene::Scene;
+use crate::accel::{Aggregate, Instance};
+use crate::scene::{Geometry, Scene};
 use glam::DVec3;
 
 /// What of the scene is traced: everything that does not change from ray to ray.
@@ -41,4 +41,20 @@ impl Tracer<'_> {
         let seen = background.axes.transpose() * -light.direction;
         Some((seen, 1.0 / light.frequency_ratio))
     }
+}
+
+/// The aggregate of a scene's bodies. Meshes of an `earlier` one are taken over where they are the
+/// same ([`Aggregate::build`]).
+pub fn build_aggregate(geometry: &Geometry, earlier: Option<&Aggregate>) -> Aggregate {
+    let instances: Vec<Instance> = geometry
+        .instances
+        .iter()
+        .map(|instance| Instance {
+            mesh: instance.mesh,
+            worldline: instance.worldline,
+            double_sided: instance.double_sided,
+            rest_from_mesh: instance.rest_from_mesh,
+        })
+        .collect();
+    Aggregate::build(&geometry.meshes, &instances, earlier)
 }

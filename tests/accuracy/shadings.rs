@@ -12,7 +12,7 @@ use restframe::color::{delta_e_2000, lab_from_xyz};
 use restframe::frame::{Frame, Sensor};
 use restframe::image::compare::Comparison;
 use restframe::scene::{
-    Bsdf, Curve, Library, Lobe, LobeKind, Material, Reflectance, Scene, Thermal,
+    Bsdf, Curve, Library, Lobe, LobeKind, Material, Scene, Thermal, WeightedSpectrum,
 };
 use restframe::shade::{Settings, ShadeScratch, Shader};
 use restframe::shot::{self, Accuracy, Preset, Shot, Spectra};
@@ -46,7 +46,7 @@ spectrum = "D65"
 [camera]
 "#;
 
-fn diffuse(reflectance: Reflectance) -> Bsdf {
+fn diffuse(reflectance: WeightedSpectrum) -> Bsdf {
     Bsdf::new(vec![Lobe {
         kind: LobeKind::Diffuse,
         reflectance,
@@ -65,7 +65,7 @@ impl Shading {
     /// Number `index` of those of the seed.
     fn new(index: u64) -> Self {
         let random = &mut Random(0x1990_0000 + index * 1_000_003);
-        let reflectance = |spectrum| Reflectance {
+        let reflectance = |spectrum| WeightedSpectrum {
             weight: 1.0,
             spectrum: Arc::new(spectrum),
         };
@@ -244,7 +244,7 @@ struct Found {
 /// One shading at numbers of wavelengths.
 fn found<const N: usize>(wall: &mut Wall, shading: &Shading, counts: [u32; N]) -> [Found; N] {
     let white = Material {
-        bsdf: diffuse(Reflectance {
+        bsdf: diffuse(WeightedSpectrum {
             weight: 1.0,
             spectrum: Arc::new(Spectrum::Constant(1.0)),
         }),

@@ -4,7 +4,7 @@ use super::bad::{triangle, write};
 use restframe::frame::Frame;
 use restframe::model::Warning;
 use restframe::render::Prepared;
-use restframe::scene::{Material, Reflectance, Scene};
+use restframe::scene::{Material, Scene, WeightedSpectrum};
 use restframe::shot::Mistakes;
 use serde_json::{Value, json};
 
@@ -65,7 +65,7 @@ fn of<'a>(seen: &'a Seen, node: &str) -> &'a Material {
     &seen.0.iter().find(|(name, _)| name == node).unwrap().1
 }
 
-fn diffuse(material: &Material) -> Option<&Reflectance> {
+fn diffuse(material: &Material) -> Option<&WeightedSpectrum> {
     let lobe = material.bsdf.of_key("diffuse")?;
     Some(&lobe.reflectance)
 }

@@ -1,8 +1,8 @@
 //! Assembly of an EXR's blocks: rows are developed as they arrive, and values that are not finite
 //! are counted.
 
-use super::fault::{Fault, exr_fault};
 use super::file::MOST_CHANNELS;
+use super::file::{Fault, exr_fault};
 use crate::film::{self, Developed};
 use ::exr::block::UncompressedBlock;
 use ::exr::math::Vec2;

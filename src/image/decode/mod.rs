@@ -5,12 +5,10 @@
 //! need.
 
 mod canvas;
-mod fault;
 mod file;
 mod pixels;
 
 pub use canvas::Decoded;
-pub use fault::Fault;
 pub(super) use file::MOST_METADATA;
-pub use file::{open, read_bytes};
+pub use file::{Fault, open, read_bytes};
 pub use pixels::{exr, png};

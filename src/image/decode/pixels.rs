@@ -1,7 +1,7 @@
 //! Decoding of a frame's file to pixels.
 
 use super::canvas::{Canvas, Decoded};
-use super::fault::{Fault, check_size, exr_fault, png_fault};
+use super::file::{Fault, check_size, exr_fault, png_fault};
 use ::exr::block::reader::ChunksReader;
 use ::exr::math::Vec2;
 use std::io::Cursor;

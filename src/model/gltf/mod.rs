@@ -7,7 +7,6 @@
 
 mod accessor;
 mod buffers;
-mod container;
 mod extensions;
 mod flat;
 mod json;

@@ -2,8 +2,8 @@
 
 use super::accessor::MAX_ELEMENTS;
 use super::buffers::Buffers;
-use super::source::Source;
-use super::{container, json, nodes};
+use super::source::{Source, split};
+use super::{json, nodes};
 use crate::model::{Model, ModelError, Warning};
 use crate::shot::ModelFiles;
 use indexmap::IndexSet;
@@ -11,7 +11,7 @@ use std::cell::Cell;
 
 /// Reads a glTF or glb file.
 pub(in crate::model) fn read(bytes: &[u8], files: &mut ModelFiles) -> Result<Model, ModelError> {
-    let container = container::split(bytes, &files.model)?;
+    let container = split(bytes, &files.model)?;
     let mut model = Model::default();
     let (root, raw) = json::parse(container.json, &files.model, &mut model.warnings)?;
     let file = files.model.clone();

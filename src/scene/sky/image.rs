@@ -202,7 +202,7 @@ mod tests {
     }
 
     #[test]
-    fn a_pole_has_one_colour_and_is_reached_continuously() {
+    fn a_pole_has_one_color_and_is_reached_continuously() {
         let image = numbered();
         for (pole, row) in [(90.0, 0.0), (-90.0, 3.0)] {
             near(image.rgb(looking(0.0, pole)), [3.5, row, 1.0]);
@@ -218,7 +218,7 @@ mod tests {
     #[test]
     fn it_is_continuous_all_over_the_sphere() {
         let image = numbered();
-        // Colour differs by at most 7 from one centre to the next, 1/8 of a turn apart.
+        // Colour differs by at most 7 from one center to the next, 1/8 of a turn apart.
         for step in 0..20_000 {
             let azimuth = f64::from(step) * 37.7;
             let elevation = (f64::from(step) * 0.731).rem_euclid(180.0) - 90.0;

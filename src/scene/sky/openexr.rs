@@ -239,7 +239,7 @@ fn layers_of(headers: &[Header], part: usize) -> Vec<Layer> {
         let has = |name| words.contains_key(name);
         // Vectors and normals have X, Y and Z too.
         let xyz = all(["x", "y", "z"]).filter(|_| own.is_empty());
-        let grey = all(["y"; 3]).filter(|_| !["x", "z", "ry", "by"].into_iter().any(has));
+        let gray = all(["y"; 3]).filter(|_| !["x", "z", "ry", "by"].into_iter().any(has));
         let named = [part_name.as_str(), own.as_str()];
         let name = named.into_iter().filter(|name| !name.is_empty());
         let name = name.collect::<Vec<_>>().join(".");
@@ -258,7 +258,7 @@ fn layers_of(headers: &[Header], part: usize) -> Vec<Layer> {
         Some(Layer {
             name,
             part,
-            channels: colors.or(xyz).or(grey)?,
+            channels: colors.or(xyz).or(gray)?,
             is_xyz: colors.is_none() && xyz.is_some(),
             rank,
         })

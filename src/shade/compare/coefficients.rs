@@ -4,7 +4,7 @@
 //! Light is added up in the rest frame of what sends it, each lamp shifted into the rest frame of
 //! the surface; one shift takes the sum to the camera.
 
-use crate::scene::{Material, Reflectance, Scene};
+use crate::scene::{Material, Scene, WeightedSpectrum};
 use crate::shade::curve::Curve;
 use crate::shade::received::{Doppler, finite};
 use crate::shade::settings::Settings;
@@ -280,7 +280,7 @@ impl<B: CoefficientBasis> Hold<'_, B> {
         self.basis.light(|nm| curve.at(nm))
     }
 
-    fn share(&self, share: &Reflectance) -> B::Coefficients {
+    fn share(&self, share: &WeightedSpectrum) -> B::Coefficients {
         let curve = Curve::new(&share.spectrum, share.weight, 1.0, self.axis);
         self.basis.share(&curve)
     }

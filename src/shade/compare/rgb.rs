@@ -153,8 +153,8 @@ impl CoefficientBasis for RgbBasis {
     }
 
     fn share(&self, curve: &Curve) -> [f64; 3] {
-        if let Some(grey) = curve.constant() {
-            return [grey; 3];
+        if let Some(gray) = curve.constant() {
+            return [gray; 3];
         }
         let (light, white) = &self.white;
         let colored = self.light(|nm| light.at(nm) * curve.at(nm));

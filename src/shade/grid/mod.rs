@@ -10,7 +10,6 @@ mod lamps;
 mod meeting;
 mod throughput;
 mod unresolved;
-mod wavelengths;
 
 pub(super) use throughput::Throughputs;
 pub use unresolved::{Unresolved, unresolved};

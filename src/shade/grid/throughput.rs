@@ -53,9 +53,9 @@ impl Throughputs {
     pub(super) fn push(&mut self, passage: &Passage, curve: &Curve) {
         let before = self.entries[passage.parent];
         let factor = before.factor * passage.share;
-        if let Some(grey) = curve.constant() {
+        if let Some(gray) = curve.constant() {
             return self.entries.push(Throughput {
-                factor: factor * grey,
+                factor: factor * gray,
                 ..before
             });
         }
@@ -75,7 +75,7 @@ impl Throughputs {
     }
 
     /// The last one, if it is the same at all wavelengths.
-    pub(super) fn last_grey(&self) -> Option<f64> {
+    pub(super) fn last_gray(&self) -> Option<f64> {
         let last = self.entries.last()?;
         last.shape.is_none().then_some(last.factor)
     }

@@ -6,8 +6,8 @@
 
 use super::model_files::{FileError, MAX_LIBRARIES, ModelFile, ModelFiles, is_absolute};
 use super::obj_lines::before_comment;
+use crate::shot::names::names_in;
 use crate::shot::names::nearest;
-use crate::shot::near_names::names_in;
 use indexmap::IndexSet;
 use std::path::{Component, Path};
 

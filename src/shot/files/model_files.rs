@@ -1,7 +1,7 @@
 //! Access to the files of one model: its own, and those that it names within the allowed folders.
 
+use crate::shot::names::nearest_file;
 use crate::shot::names::short;
-use crate::shot::near_names::nearest_file;
 use indexmap::IndexSet;
 use std::fs::{self, File};
 use std::io::{BufReader, ErrorKind, Read};

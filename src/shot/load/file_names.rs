@@ -1,7 +1,7 @@
 //! File names in a shot: other systems' separators, and remedies for a name that does not exist.
 
 use crate::shot::names::short;
-use crate::shot::near_names::{are_composed_differently, nearest_file};
+use crate::shot::names::{are_composed_differently, nearest_file};
 use std::path::{Component, Path, PathBuf};
 
 /// Remedy for `\\` in double quotes.

@@ -239,7 +239,7 @@ mod tests {
     }
 
     #[test]
-    fn a_later_stage_can_mark_a_key_or_what_holds_it() {
+    fn a_later_check_can_mark_a_key_or_what_holds_it() {
         let shot = parse(SHOT, Path::new("a.toml")).unwrap();
         let marked = |key| {
             let span = shot.places.mistake(key, "the mesh is empty", None).span;

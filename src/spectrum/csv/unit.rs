@@ -248,7 +248,7 @@ mod tests {
 
     /// 500 nm are 0.5 µm, 5000 Å, 20000 cm⁻¹, 2.479684 eV and 599.584916 THz.
     #[test]
-    fn five_hundred_nanometres_are_met_in_every_unit() {
+    fn five_hundred_nanometers_are_met_in_every_unit() {
         for (name, number) in [
             ("wavelength (nm)", 500.0),
             ("WAVELENGTH (NM)", 500.0),

@@ -1,7 +1,7 @@
 //! A smooth curve of a given color.
 
 use super::fit;
-use super::sigmoid::{HALF_NM, WEIGHTS, quadratic, tinted, variable};
+use super::fit::{HALF_NM, WEIGHTS, quadratic, tinted, variable};
 use crate::color::cie::RANGE_NM;
 use crate::spectrum::{Beyond, MAX_VALUE, SpectrumError};
 
@@ -207,17 +207,17 @@ mod tests {
     }
 
     #[test]
-    fn black_white_and_greys_are_constant_and_exact() {
-        for grey in [0.0, 1e-300, 0.18, 0.5, 1.0, 40.0] {
-            let curve = Uplift::new([grey; 3]).unwrap();
+    fn black_white_and_grays_are_constant_and_exact() {
+        for gray in [0.0, 1e-300, 0.18, 0.5, 1.0, 40.0] {
+            let curve = Uplift::new([gray; 3]).unwrap();
             assert!(
                 [1e-300, 360.0, 555.5, 1e300]
                     .iter()
-                    .all(|&nm| curve.at(nm) == grey)
+                    .all(|&nm| curve.at(nm) == gray)
             );
             assert_eq!(
                 (curve.support_nm(), curve.feature_nm(), curve.peak()),
-                (None, None, grey)
+                (None, None, gray)
             );
         }
     }

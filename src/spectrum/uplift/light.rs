@@ -12,7 +12,7 @@
 //! one core). Each entry is fitted by itself: the same on any number of threads.
 
 use super::fit::fit;
-use super::sigmoid::{HALF_NM, MIDDLE_NM, quadratic, sigmoid, variable};
+use super::fit::{HALF_NM, MIDDLE_NM, quadratic, sigmoid, variable};
 use crate::color::cie::RANGE_NM;
 use crate::spectrum::cubic::catmull_rom;
 use rayon::prelude::*;
@@ -139,7 +139,7 @@ fn cubic(below: usize, taps: [f32; 4], entry: impl Fn(usize) -> [f32; 3]) -> [f3
 
 #[cfg(test)]
 mod tests {
-    use super::super::sigmoid::WEIGHTS;
+    use super::super::fit::WEIGHTS;
     use super::*;
     use crate::spectrum::Uplift;
     use proptest::prelude::*;
@@ -205,13 +205,13 @@ mod tests {
     }
 
     #[test]
-    fn greys_are_constant_and_black_is_none() {
-        for grey in [0.0, 1e-300, 0.18, 1.0, 4e37] {
-            let light = ColoredLight::new([grey; 3]);
+    fn grays_are_constant_and_black_is_none() {
+        for gray in [0.0, 1e-300, 0.18, 1.0, 4e37] {
+            let light = ColoredLight::new([gray; 3]);
             assert!(
                 [1e-300, 360.0, 1e300]
                     .iter()
-                    .all(|&nm| light.at(nm) == grey)
+                    .all(|&nm| light.at(nm) == gray)
             );
         }
     }

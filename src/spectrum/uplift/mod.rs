@@ -10,7 +10,6 @@
 mod curve;
 mod fit;
 mod light;
-mod sigmoid;
 
 pub use curve::{DARKEST, RGB_ERROR, Uplift};
 pub use light::{ColoredLight, HUE_ERROR};

@@ -1,7 +1,7 @@
 //! All knobs, in the order of a report.
 
 use super::knob::Knob;
-use super::{bodies, mirrors, pixels, spectra};
+use super::{mirrors, pixels, spectra};
 use crate::frame::ActiveEffects;
 use crate::study::start::Start;
 
@@ -11,6 +11,6 @@ pub(in crate::study) const KNOBS: [fn(&Start<'_>, &ActiveEffects) -> Knob; 6] = 
     |start, _| pixels::samples(start),
     mirrors::bounces,
     mirrors::cutoff,
-    |start, _| bodies::tessellation(start),
+    |start, _| mirrors::tessellation(start),
     |start, _| pixels::output(start),
 ];

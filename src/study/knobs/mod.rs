@@ -2,7 +2,6 @@
 //! settings.
 
 mod all;
-mod bodies;
 mod knob;
 mod mirrors;
 mod pixels;

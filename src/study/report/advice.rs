@@ -1,7 +1,7 @@
 //! Recommendations: the cheapest settings with colors within a limit, ready to be pasted.
 
 use super::head::time_ratio;
-use super::quantity::number;
+use super::measure::number;
 use crate::study::results::{Recommendation, Study};
 use maud::{Markup, html};
 

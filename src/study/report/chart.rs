@@ -2,7 +2,7 @@
 //! fine, and rings for the Pareto front and for the shot's own setting.
 
 use super::measure::{Error, Measure};
-use super::quantity::{number, time, unit_of_time};
+use super::measure::{number, time, unit_of_time};
 use crate::plot::{Axis, Color, Page, Panel, Plot, Remark, Series, Stroke, lay_out, svg};
 use crate::study::results::{Point, Sweep};
 

@@ -1,6 +1,6 @@
 //! Where the time goes: phases, effects, and the statements of the 1990 paper.
 
-use super::quantity::{NOTHING, percent, time};
+use super::measure::{NOTHING, percent, time};
 use crate::study::results::{EffectCost, Study};
 use maud::{Markup, html};
 

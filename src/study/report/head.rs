@@ -2,7 +2,7 @@
 //! to read it.
 
 use crate::plot::STYLE;
-use crate::study::report::quantity::{number, percent, times};
+use crate::study::report::measure::{number, percent, times};
 use crate::study::results::Study;
 use maud::{Markup, PreEscaped, html};
 

@@ -1,6 +1,6 @@
 //! The error that a chart shows, and the place of a point on its axis.
 
-use crate::study::results::{Errors, Percentiles, Point, Sweep};
+use crate::study::results::{Errors, Percentiles, Point, Sweep, Timing};
 
 /// A measure of the error of an image.
 #[derive(Debug, Clone, Copy)]
@@ -72,5 +72,38 @@ impl Measure {
             value if value.is_finite() && value > 0.0 => Error::Measured(value),
             _ => Error::Beyond,
         })
+    }
+}
+
+pub(super) use crate::plot::quantity::*;
+
+/// The range of equal renders in the unit of their median, such as 4.0–4.3; None if there was only
+/// one.
+pub(super) fn range(timing: Timing) -> Option<String> {
+    let (unit, _) = unit_of_time(timing.median);
+    (timing.least < timing.greatest).then(|| {
+        let [least, greatest] = [timing.least, timing.greatest].map(|s| number(s / unit));
+        format!("{least}–{greatest}")
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_range_is_told_where_there_is_one() {
+        let one = Timing {
+            median: 0.0041,
+            least: 0.0041,
+            greatest: 0.0041,
+        };
+        assert_eq!(range(one), None);
+        let three = Timing {
+            least: 0.004,
+            greatest: 0.0043,
+            ..one
+        };
+        assert_eq!(range(three).as_deref(), Some("4–4.3"));
     }
 }

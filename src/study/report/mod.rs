@@ -9,11 +9,9 @@
 mod advice;
 mod chart;
 mod costs;
-mod finite;
 mod head;
 mod measure;
 mod page;
-mod quantity;
 mod settings;
 mod spreadsheet;
 mod sweep;

@@ -2,7 +2,7 @@
 
 use super::chart::color;
 use super::head::time_ratio;
-use super::quantity::{NOTHING, bytes, mebibytes, number, percent, range, time};
+use super::measure::{NOTHING, bytes, mebibytes, number, percent, range, time};
 use crate::study::results::{Errors, Percentiles, Point, Study, Sweep};
 use maud::{Markup, html};
 

@@ -4,7 +4,7 @@
 //! Flags are "true" or "false"; an empty field means that there is no value. Effects and phases are
 //! in the JSON only.
 
-use super::finite::finite;
+use super::page::finite;
 use crate::study::results::{Percentiles, Point, Study, Sweep};
 
 /// The header, in the order of [`fields`].

@@ -2,7 +2,7 @@
 
 use super::chart::charts;
 use super::head::time_ratio;
-use super::quantity::percent;
+use super::measure::percent;
 use super::settings;
 use crate::study::results::{Halving, Study, Sweep};
 use maud::{Markup, PreEscaped, html};

@@ -1,6 +1,7 @@
 //! What every check needs: the shot, the author's names, and the mistakes found so far.
 
 use super::super::file_names;
+use super::super::walk::Walk;
 use crate::shot::names::{did_you_mean, short};
 use crate::shot::track::Blend;
 use crate::shot::{Mistake, Shot, Track};
@@ -122,4 +123,30 @@ impl<'a> Checks<'a> {
                 )
             })
     }
+}
+
+/// All mistakes of a shot: those that the walk has found, and those of the checks.
+pub(in super::super) fn check(shot: &Shot, walk: Walk<'_>) -> Vec<Mistake> {
+    let Walk {
+        mistakes,
+        names,
+        kept,
+        ..
+    } = walk;
+    let mut checks = Checks {
+        shot,
+        names,
+        kept,
+        mistakes,
+    };
+    checks.settings();
+    checks.worldlines();
+    checks.models();
+    checks.spectra();
+    checks.materials();
+    checks.lights();
+    checks.sky();
+    checks.camera();
+    checks.insets();
+    checks.mistakes
 }

@@ -4,7 +4,6 @@
 //! shot by now: whether the author wrote a key is asked of the file's [`Places`](super::Places), and
 //! which names exist of the walk.
 
-mod all;
 mod bodies;
 mod camera;
 mod checks;
@@ -16,4 +15,4 @@ mod spectra;
 pub use bodies::MAX_INSTANCES;
 pub use spectra::ILLUMINANTS;
 
-pub(super) use all::check;
+pub(super) use checks::check;
