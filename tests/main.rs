@@ -22,6 +22,7 @@ mod file_names;
 mod film;
 mod finished;
 mod frames;
+mod gamut;
 mod hard_cases;
 mod held_spectra;
 mod huge;

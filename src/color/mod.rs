@@ -6,7 +6,9 @@
 
 pub mod cie;
 mod difference;
+mod gamut;
 pub mod spaces;
 pub(crate) mod tables;
 
 pub use difference::{Lab, delta_e_2000, lab_from_xyz};
+pub use gamut::compressed;

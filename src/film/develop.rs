@@ -6,6 +6,7 @@
 //! its 76 decades.
 
 use super::Film;
+use crate::color::compressed;
 use rayon::prelude::*;
 
 /// Parameters of development.
@@ -80,6 +81,15 @@ pub fn to_rgb8(developed: &Developed, encode: fn(f64) -> f64) -> Vec<u8> {
             }
         });
     rgb8
+}
+
+/// The same colors, those that no screen shows brought into its gamut by [`compressed`].
+pub fn compress_gamut(developed: &Developed) -> Developed {
+    let shown = |linear: &[f32; 3]| compressed(linear.map(f64::from)).map(|part| part as f32);
+    Developed {
+        linear: developed.linear.par_iter().map(shown).collect(),
+        saturated: developed.saturated,
+    }
 }
 
 fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {

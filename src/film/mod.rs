@@ -9,7 +9,7 @@ mod left_out;
 mod metering;
 mod sums;
 
-pub use develop::{Developed, Development, develop, to_rgb8};
+pub use develop::{Developed, Development, compress_gamut, develop, to_rgb8};
 pub use left_out::{LeftOut, SILENT};
 pub use metering::{WHITE_AT_ZERO_STOPS, auto_exposure, luminance_percentile};
 pub use sums::{Channels, Film, Layers};

@@ -1,7 +1,7 @@
 //! Settings of one frame that place nothing in the scene: the sensor, and rows with effects of their
 //! own.
 
-use crate::shot::{self, Effects, SensorColor, Shot, Tone};
+use crate::shot::{self, Effects, Gamut, SensorColor, Shot, Tone};
 use std::ops::Range;
 
 /// Size and samples of a shot's images as they are asked for.
@@ -22,6 +22,8 @@ pub struct Sensor {
     pub color: SensorColor,
     /// What becomes of values above 1.
     pub tone: Tone,
+    /// What becomes of colors that no screen shows.
+    pub gamut: Gamut,
 }
 
 impl Sensor {
@@ -32,11 +34,13 @@ impl Sensor {
             color,
             exposure: _,
             tone,
+            gamut,
         } = sensor;
         Self {
             window: *window,
             color: *color,
             tone: *tone,
+            gamut: *gamut,
         }
     }
 }

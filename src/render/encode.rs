@@ -1,12 +1,12 @@
 //! From a film to the files of one frame, as bytes: development, insets, encoding.
 
 use super::development;
-use crate::film::{Film, develop, to_rgb8};
+use crate::film::{Channels, Film, compress_gamut, develop, to_rgb8};
 use crate::frame::{Frame, Sensor};
 use crate::image::{EncodeError, Metadata, SOFTWARE, exr, png};
 use crate::plot::{LEAST_INSET, Plot, lay_out_inset, raster, svg};
 use crate::scene::Scene;
-use crate::shot::{Depth, Exposure, Format, Inset, Sequence, Track};
+use crate::shot::{Depth, Exposure, Format, Gamut, Inset, Sequence, Track};
 
 /// The files of a frame, and what could not be represented in them.
 pub struct Pictures {
@@ -68,7 +68,9 @@ pub fn encode(
     for format in &frame.output.formats {
         files.push(match format {
             Format::Png => {
-                let mut rgb = to_rgb8(&developed, development.encode);
+                let compressed = compresses(film, frame.sensor).then(|| compress_gamut(&developed));
+                let shown = compressed.as_ref().unwrap_or(&developed);
+                let mut rgb = to_rgb8(shown, development.encode);
                 let drawn = frame.insets.iter().zip(insets).map(|(inset, plot)| {
                     draw(frame, inset, plot.as_ref(), &mut rgb, [width, height])
                 });
@@ -91,6 +93,11 @@ pub fn encode(
         saturated,
         warnings,
     })
+}
+
+/// Whether colors beyond the screen's are brought into its gamut; bands are no colors.
+fn compresses(film: &Film, sensor: Sensor) -> bool {
+    sensor.gamut == Gamut::Compress && film.channels == Channels::Xyz
 }
 
 /// Draws an inset into an image of three bytes per pixel.

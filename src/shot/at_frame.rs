@@ -3,7 +3,7 @@
 
 use super::{
     Accuracy, Array, AutoExposure, Background, Beyond, Camera, Clock, Diffuse, Effects, Emission,
-    Exposure, Filter, GammaVelocity, Gaussian, Highlight, Image, Inset, Light, LightKind,
+    Exposure, Filter, GammaVelocity, Gamut, Gaussian, Highlight, Image, Inset, Light, LightKind,
     LightUnits, Material, Mirror, Model, Output, Places, Projection, RapidityVelocity, Refraction,
     Scale, Sensor, SensorColor, Sequence, Shot, SpectrumTable, SpectrumValue, Splice, Stars,
     Thermal, ThermalCurve, Tone, Track, Velocity, Worldline, track::Blend,
@@ -247,7 +247,7 @@ macro_rules! forms {
 fixed! {
     f64, u32, bool, String, PathBuf, Places, Accuracy, AutoExposure, Beyond, Effects, Filter, Inset,
     LightKind, LightUnits, Output, Projection, SensorColor, Sequence, Splice, Stars, ThermalCurve,
-    Tone,
+    Tone, Gamut,
 }
 
 tables! {
@@ -282,7 +282,7 @@ tables! {
     Camera {
         worldline, position, look_at, yaw, pitch, roll, pan, tilt, hfov, vfov, projection,
     }
-    Sensor { window, color, exposure, tone }
+    Sensor { window, color, exposure, tone, gamut }
 }
 
 forms! {

@@ -46,8 +46,9 @@ pub use material::{
 };
 pub use sequence::{Corner, Inset, InsetPixel, MOST_COLUMNS, PixelName, Sequence, Sheet, Video};
 pub use settings::{
-    AutoExposure, Beaming, Clock, Depth, Effects, Exposure, Filter, Format, Image, LARGEST_SIDE,
-    Layer, MOST_BOUNCES, Output, Sensor, SensorColor, Splice, SpliceEffects, Switch, Tone,
+    AutoExposure, Beaming, Clock, Depth, Effects, Exposure, Filter, Format, Gamut, Image,
+    LARGEST_SIDE, Layer, MOST_BOUNCES, Output, Sensor, SensorColor, Splice, SpliceEffects, Switch,
+    Tone,
 };
 pub use sky::{
     Background, MOST_STARS, RandomStars, STAR_KELVIN, STAR_MAGNITUDE, StarCatalogue, Stars,

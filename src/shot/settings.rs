@@ -180,6 +180,8 @@ pub struct Sensor {
     pub exposure: Exposure,
     /// What becomes of values above 1. Default: "clip".
     pub tone: Tone,
+    /// What becomes, in PNG files, of colors that no screen shows; bands are clipped always. Default: "clip".
+    pub gamut: Gamut,
 }
 
 impl Default for Sensor {
@@ -189,6 +191,7 @@ impl Default for Sensor {
             color: SensorColor::Cie1931,
             exposure: Exposure::Auto(AutoExposure::Auto),
             tone: Tone::Clip,
+            gamut: Gamut::Clip,
         }
     }
 }
@@ -227,6 +230,16 @@ pub enum AutoExposure {
 pub enum Tone {
     /// They are cut off at 1.
     Clip,
+}
+
+/// What becomes of colors that no screen shows.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum Gamut {
+    /// Each of red, green and blue is cut off at 0 and 1, which changes hue and brightness.
+    Clip,
+    /// Hue, as OKLab has it, and luminance are kept, and chroma is lowered as far as it must be; what is brighter than white is white.
+    Compress,
 }
 
 /// `[output]`: files and layers that are written.

@@ -263,12 +263,14 @@ impl List<'_> {
             color,
             exposure,
             tone,
+            gamut,
         } = sensor;
         self.leaf("window", window);
         self.leaf("color", color);
         // Metering knows neither.
         if files {
             self.leaf("tone", tone);
+            self.leaf("gamut", gamut);
             if let Exposure::Stops(stops) = exposure {
                 self.track("exposure", stops);
             }
