@@ -113,7 +113,7 @@ fn a_dark_lamp_calls_for_no_effect() {
     let text = r#"
         shot.frames = 2
         worldline.car.velocity = [0.5, 0, 0]
-        model = [{ file = "wall.obj" }]
+        model = [{ file = "assets/sphere.obj" }]
         camera = {}
         light = [{ kind = "point", position = [0, 1, 0], worldline = "car", intensity = { from = 0, to = 10 } }]
     "#;

@@ -105,7 +105,7 @@ impl Frame<'_> {
             "shadows",
             switches.shadows == Switch::Auto,
             lit.as_deref(),
-            "there is no lamp",
+            "no lamp shines",
         );
         let followed = switches.bounces > 0;
         let mirror = call(
