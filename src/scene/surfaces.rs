@@ -16,6 +16,10 @@ static NO_MATERIAL: ModelMaterial = ModelMaterial {
     double_sided: true,
 };
 
+/// Name of the shot's material that is laid over every material of the files, below one of its own
+/// name.
+const EVERY: &str = "*";
+
 impl Resolver<'_> {
     /// All materials, and for each model the indices of its materials; after these, that of
     /// surfaces without material.
@@ -73,7 +77,8 @@ impl Resolver<'_> {
         self.laid_over(own.iter().find(|m| m.name == name), name, materials)
     }
 
-    /// The index of the shot's material of this name laid over the file's.
+    /// The index of the shot's material of this name laid over the one for all, and that over the
+    /// file's.
     fn laid_over(
         &mut self,
         file: Option<&ModelMaterial>,
@@ -97,10 +102,15 @@ impl Resolver<'_> {
             },
             Material::imported,
         );
-        let made = imported.map_err(MaterialError::from).and_then(|below| {
-            match self.frame.materials.get(name) {
-                Some(over) => below.overlaid(over, &spectra),
-                None => Ok(below),
+        let made = imported.map_err(|error| (name, MaterialError::from(error)));
+        let made = [EVERY, name].into_iter().fold(made, |below, over| {
+            let terms = self.frame.materials.get(over);
+            match (below, terms) {
+                (Ok(below), Some(terms)) => {
+                    let laid = below.overlaid(terms, &spectra);
+                    laid.map_err(|error| (over, error))
+                }
+                (below, _) => below,
             }
         });
         match made {
@@ -110,10 +120,10 @@ impl Resolver<'_> {
                 self.numbers.insert(key, number);
                 number
             }
-            Err(error) => {
-                let message = format!("material \"{name}\": {error}");
+            Err((over, error)) => {
+                let message = format!("material \"{over}\": {error}");
                 self.mistake(
-                    &format!("material.{name}{}", error.key()),
+                    &format!("material.{over}{}", error.key()),
                     message,
                     Some(error.help()),
                 );

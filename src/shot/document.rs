@@ -27,7 +27,7 @@ pub struct Shot {
     /// Models from files, and where they stand. At least one.
     #[schemars(length(min = 1))]
     pub model: Vec<Model>,
-    /// Materials by name. A name that a model file has too is laid over the imported material: given keys replace, the rest stays.
+    /// Materials by name. A name that a model file has too is laid over the imported material: given keys replace, the rest stays. The material "*" is laid over all of them, below one of its own name.
     #[serde(default, skip_serializing_if = "IndexMap::is_empty")]
     pub material: IndexMap<String, Material>,
     /// Spectra by name, for use wherever a spectrum stands.

@@ -136,6 +136,25 @@ fn a_material_for_all_is_theirs_too() {
     }
 }
 
+/// As a wall heats: one table for a file of any number of materials, and one of them cooler.
+#[test]
+fn the_material_star_is_laid_over_all_below_their_own() {
+    let keys = "[material.\"*\"]\nthermal = { temperature = 900 }\n\
+                emission = { spectrum = 0.5 }\n[material.Paint]\nthermal = { temperature = 300 }";
+    for file in ["m.gltf", "m.obj"] {
+        let seen = seen(file, keys).unwrap();
+        let kelvin = |node| of(&seen, node).thermal.as_ref().unwrap().temperature_k;
+        assert_eq!([kelvin("Bare"), kelvin("Red")], [900.0, 300.0], "{file}");
+        for node in ["Bare", "Red"] {
+            let material = of(&seen, node);
+            assert_eq!(material.emission.as_ref().unwrap().spectrum.at(555.0), 0.5);
+            assert!(diffuse(material).is_some(), "the file's own color stays");
+        }
+    }
+    let mistakes = seen("m.gltf", "[material.\"*\"]\nmirror = { weight = 0.5 }").unwrap_err();
+    assert_eq!(mistakes.iter().next().unwrap().key, "material.*.mirror");
+}
+
 #[test]
 fn naming_them_where_there_are_none_is_a_mistake() {
     let mistakes = seen("whole.gltf", "materials = { \"\" = \"glow\" }").unwrap_err();
