@@ -14,6 +14,13 @@
 //! By the same reasoning it includes the smoothing of curves through points, linear interpolation
 //! between the phases of baked curves, cubic interpolation in tables over ln D, and rounding to
 //! f32.
+//!
+//! Narrow curves have a bound of their own ([`NarrowKernel`]), relative to their area ∫ f du. A
+//! narrow curve f is integrated ([`Fine`](super::Fine)); the error is in the rest. For the product
+//! w g f of a channel's weight w per unit of u = ln λ, a smooth curve g and f, the sum is ∫ ŵg f du,
+//! so the error is at most the area times max |ŵg − w g|. Between wavelengths, g is a cubic
+//! (Catmull-Rom; its kernels are 1.13, h/4 and h²/10); between rows of tables over ln D, w and g are
+//! lines or cubics.
 
 use super::log_grid::{PHASE_SPACING, Smoothing};
 use super::quadrature::Quadrature;

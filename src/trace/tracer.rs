@@ -1,4 +1,5 @@
-//! What is traced: everything that does not change from ray to ray.
+//! What is traced: everything that does not change from ray to ray, and the trees of a scene's bodies
+//! without their materials.
 
 use super::clock::Clock;
 use super::spacetime::Spacetime;

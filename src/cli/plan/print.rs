@@ -1,4 +1,4 @@
-//! The forecast of a shot, as lines or as JSON.
+//! The forecast of a shot, in words a line for consecutive equal frames, or as JSON.
 
 use crate::cli::messages::{Answer, Reader};
 use crate::cli::open::open;

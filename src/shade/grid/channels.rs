@@ -1,4 +1,4 @@
-//! A tree to the sensor's channels: by tables over ln D where there are some, else by sums over the
+//! A tree to spectral radiance at the sensor's wavelengths, and to its channels: by tables over ln D where there are some, else by sums over the
 //! sensor's wavelengths.
 
 use super::throughput::Throughputs;

@@ -1,4 +1,4 @@
-//! The error that a chart shows, and the place of a point on its axis.
+//! The error that a chart shows, the place of a point on its axis, and quantities as text.
 
 use crate::study::results::{Errors, Percentiles, Point, Sweep, Timing};
 

@@ -1,4 +1,4 @@
-//! What every check needs: the shot, the author's names, and the mistakes found so far.
+//! All checks of a shot, in the order of its sections, and what every check needs: the shot, the author's names, and the mistakes found so far.
 
 use super::super::file_names;
 use super::super::walk::Walk;
